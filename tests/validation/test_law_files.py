@@ -194,6 +194,19 @@ def test_a_file_that_is_no_law_is_refused_in_one_sentence(text, sentence, tmp_pa
     assert "\n" not in str(refused.value)
 
 
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"\xef\xbb\xbf" + FRICTION.encode(),
+        b"# coding: latin-1\n# mu nach B\xf6 und M\xfcller\n" + FRICTION.encode(),
+    ],
+    ids=["byte order mark", "PEP 263"],
+)
+def test_a_law_is_read_in_its_own_encoding(tmp_path, content):
+    (tmp_path / "law.py").write_bytes(content)
+    Setup(Material(law=tmp_path / "law.py"))
+
+
 def test_what_is_no_file_of_text_or_no_number_is_refused(tmp_path):
     for place, reason in ((tmp_path, "cannot be read"), (tmp_path / "law.py", "does not exist")):
         with pytest.raises(ValueError, match=reason):

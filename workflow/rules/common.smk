@@ -24,9 +24,8 @@ from springblock.cli import sentence
 from springblock.provenance import configuration_digest, digest
 from springblock.study import configuration as study
 from springblock.study import cost, record
+from springblock.study.written import LOADER, check_file
 
-# PyYAML's reader in C is ten times as fast, where it is installed.
-LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
     SCHEMA = yaml.load(file, LOADER)
 
@@ -47,6 +46,8 @@ def in_one_sentence():
 
 
 with in_one_sentence():
+    for file in workflow.configfiles if workflow.is_main_process else []:
+        check_file(Path(file))
     config = study.completed(config)
     study.check(config, SCHEMA)
 RESULTS = str(Path(config["results"]))  # without a slash at the end

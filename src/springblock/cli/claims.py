@@ -10,7 +10,7 @@ import click
 from springblock.claims import CLAIMS
 from springblock.claims.page import page
 from springblock.claims.table import SCHEMA, gathered, rows
-from springblock.cli.options import INPUT, OUTPUT, code_version, load_as
+from springblock.cli.options import INPUT, Output, code_version, load_as
 from springblock.files import write_text
 from springblock.io.parquet import load, refuse_mixture, rows_to_table, write
 from springblock.io.records import read_records
@@ -30,8 +30,8 @@ _files = partial(click.option, type=INPUT, multiple=True)
 @_files("--correlation-length", help="Table `correlation_length`. Can be repeated.")
 @_files("--work-precision", help="Table `work_precision`. Can be repeated.")
 @click.option("--configuration", required=True, help="Digest of the study's configuration.")
-@click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
-@click.option("--page", "text", type=OUTPUT, required=True, help="Markdown file.")
+@click.option("--output", type=Output(".parquet"), required=True, help="Parquet file.")
+@click.option("--page", "text", type=Output(".md"), required=True, help="Markdown file.")
 def claims(
     batches: tuple[Path, ...],
     correlation: tuple[Path, ...],

@@ -17,6 +17,7 @@ from tqdm import tqdm
 
 from springblock.cli.options import (
     SURFACE,
+    by_name,
     code_version,
     defaulted,
     given,
@@ -87,7 +88,7 @@ class Job(NamedTuple):
 
 def _varied(pairs: tuple[str, ...]) -> list[Varied]:
     """Return every combination of constants with several values each."""
-    lists = {name: text.split(",") for name, _, text in (pair.partition("=") for pair in pairs)}
+    lists = {name: text.split(",") for name, text in by_name(pairs).items()}
     values = product(*lists.values())
     return [in_order(dict(zip(lists, each, strict=True))) for each in values]
 

@@ -7,6 +7,7 @@ import json
 import math
 import re
 import sys
+import tokenize
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
@@ -58,10 +59,11 @@ class LawFile:
     def read(cls, file: Path, **constants: float) -> "LawFile":
         """Read a law; `constants` replace values in the file."""
         try:
-            source = file.read_text(encoding="utf-8")
+            with tokenize.open(file) as text:  # a byte order mark, or an encoding as of PEP 263
+                source = text.read()
         except FileNotFoundError:
             raise ValueError(f"{file} does not exist") from None
-        except (OSError, UnicodeDecodeError) as error:
+        except (OSError, SyntaxError, UnicodeDecodeError) as error:
             raise ValueError(f"{file} cannot be read: {error}") from None
         stem = re.sub(r"[^\w.-]", "_", file.stem)
         law = cls(stem, file=file, source=source)
