@@ -7,7 +7,6 @@ import shutil
 import subprocess
 import sys
 import time
-from contextlib import contextmanager
 from itertools import chain
 from pathlib import Path
 from shlex import quote
@@ -36,20 +35,18 @@ if workflow.modifier.skip_configfile or not Path(DEFAULTS).exists():
     update_config(config, given)
 
 
-@contextmanager
-def in_one_sentence():
-    """Report why a study cannot be run, without a traceback."""
+def checked(step, *given):
+    """Call a function, and report in one sentence why the study cannot be run."""
     try:
-        yield
+        return step(*given)
     except Exception as error:
         raise WorkflowError(f"The study cannot be run: {sentence(error)}.") from None
 
 
-with in_one_sentence():
-    for file in workflow.configfiles if workflow.is_main_process else []:
-        check_file(Path(file))
-    config = study.completed(config)
-    study.check(config, SCHEMA)
+for file in workflow.configfiles if workflow.is_main_process else []:
+    checked(check_file, Path(file))
+config = checked(study.completed, config)
+checked(study.check, config, SCHEMA)
 RESULTS = str(Path(config["results"]))  # without a slash at the end
 
 BEGUN = time.time()
@@ -104,6 +101,11 @@ def own_files(wildcards):
     of_study = {"law": getattr(SETUP.material.law, "file", None)}
     files = of_study | ENSEMBLE[wildcards.scene].scene.files
     return [str(file) for file in files.values() if file]
+
+
+def law(wildcards):
+    """The law of friction, whose name changes with its file and the data that it reads."""
+    return str(SETUPS[wildcards.scene].material.law)
 
 
 def duration(wildcards):
@@ -187,8 +189,7 @@ def start():
 
 def refuse(unseen):
     """Refuse results of other configurations, which Snakemake does not see for the reason given."""
-    with in_one_sentence():
-        record.refuse_unknown(Path(RESULTS), config, unseen)
+    checked(record.refuse_unknown, Path(RESULTS), config, unseen)
 
 
 def meant(target):
@@ -212,9 +213,8 @@ def begin():
         "files": sorted(os.path.relpath(file, RESULTS) for file in NEEDED),
         "spare": sorted(os.path.relpath(file, RESULTS) for file in {*SPARE} - {*NEEDED}),
     }
-    with in_one_sentence():
-        remembers = workflow.execution_settings.keep_metadata
-        record.begin(Path(RESULTS), config, contents, remembers)
+    remembers = workflow.execution_settings.keep_metadata
+    checked(record.begin, Path(RESULTS), config, contents, remembers)
 
 
 def tell_errors():

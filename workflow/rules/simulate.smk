@@ -94,6 +94,7 @@ rule prelude:
         code=code("simulate"),
         scene=scene,
         how=HOW,
+        law=law,
     message:
         "Loading {wildcards.scene} up to its first detachment"
     shell:
@@ -123,6 +124,7 @@ rule simulate_batch:
         code=code("simulate"),
         scene=scene,
         how=HOW,
+        law=law,
         duration=duration,
         times=snapshots,
         first=lambda wildcards: seeds(wildcards)[0],
@@ -165,6 +167,7 @@ if WITH_FIELDS:
             code=code("simulate"),
             scene=scene,
             how=HOW,
+            law=law,
             duration=duration,
             times=snapshots,
             seed=lambda wildcards: ENSEMBLE[wildcards.scene].seeds[0],
