@@ -42,6 +42,10 @@ def test_realisations_are_gathered_by_any_name_and_count_once(springblock, batch
     folder.mkdir()
     pq.write_table(pq.read_table(batch(0, 2)).select(["seed"]), folder / "other.parquet")
     assert "no realisations found" in springblock("table", folder, refused=True)
+    (folder / "._0.parquet").write_bytes(b"companion of another system")
+    (folder / "empty.parquet").touch()
+    assert "empty.parquet is empty or not a table" in springblock("table", folder, refused=True)
+    (folder / "empty.parquet").unlink()
     for i, file in enumerate((batch(0, 2), batch(0, 2), batch(0, 2, "--vary", "gamma=0"))):
         (folder / f"{i}.parquet").write_bytes(file.read_bytes())
     springblock("table", folder, "--by", "direction", "--of", "t_avg", "--output", output)

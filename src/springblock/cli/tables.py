@@ -121,10 +121,19 @@ def _files(folder: Path) -> list[Path]:
     if (table := folder / "realisations.parquet").exists():
         return [table]
     every = [file for file in sorted(folder.rglob("*.parquet")) if not file.name.startswith(".")]
-    held = [file for file in every if {*SUMMARY.names} <= {*pq.read_schema(file).names}]
+    held = [file for file in every if {*SUMMARY.names} <= {*_names(file)}]
     if not held:
         raise ValueError(f"{folder}: no realisations found")
     return held
+
+
+def _names(file: Path) -> list[str]:
+    """Return the columns of any Parquet file."""
+    try:
+        names: list[str] = pq.read_schema(file).names
+    except pa.ArrowInvalid:
+        raise ValueError(f"{file} is empty or not a table (Parquet); remove it") from None
+    return names
 
 
 def _of_study(results: Path) -> list[Path]:
