@@ -39,6 +39,7 @@ rule all:
         rules.figures.input,
         rules.report.output,
         rules.accuracy.output if config["accuracy"] else [],
+        rules.reference_solutions.output if config["accuracy"] and config["verification"] else [],
         rules.mechanism.output if config["mechanism"] else [],
         rules.beyond.output if GROUPS_BEYOND else [],
     localrule: True

@@ -71,6 +71,7 @@ def test_every_step_can_be_planned(study):
     full = study.planned(*elsewhere, "--", *steps, **FULL).keys()
     tables = {"compare_scene", "stability_table", "precision_table", "accuracy", "claims"}
     further = {"beyond", "production_table", "sweep_pressure", "sweep_scatter"}
+    further |= {"reference_solutions"}
     assert {*steps, *tables, *further, *figures.FIGURES} - {"surfaces"} <= full
     named = set(re.findall(r"`(\w+)`", (ROOT / "docs/workflow.md").read_text()))
     drawn = ("figure_", "supplement", "beyond_", "sweep_", "film_")
