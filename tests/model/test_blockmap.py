@@ -38,6 +38,30 @@ def test_an_image_is_seen_upright_however_it_is_stored(saved, mode):
     assert mask.values.dtype == bool
 
 
+#: How pixels are stored, by the EXIF orientation that turns them back.
+STORED = {1: lambda seen: seen, 2: np.fliplr, 3: lambda seen: np.rot90(seen, 2), 4: np.flipud}
+STORED |= {5: np.transpose, 6: np.rot90, 7: lambda seen: np.rot90(seen, 2).T}
+STORED |= {8: lambda seen: np.rot90(seen, -1)}
+
+
+@pytest.mark.parametrize("kind", ["png", "tiff", "webp"])
+@pytest.mark.parametrize("orientation", STORED)
+def test_an_image_is_seen_as_its_camera_was_held(tmp_path, kind, orientation):
+    pixels = np.ascontiguousarray(STORED[orientation](CORNER[::-1]))
+    (exif := Image.Exif())[0x0112] = orientation
+    file, how = tmp_path / f"a.{kind}", {"lossless": True} if kind == "webp" else {}
+    Image.fromarray(pixels.astype(np.uint8) * 255).save(file, exif=exif, **how)
+    np.testing.assert_array_equal(BlockMap.mask(file).values, CORNER)
+
+
+@pytest.mark.parametrize("kind", ["gif", "png", "tiff"])
+def test_a_file_of_several_pictures_is_refused(tmp_path, kind):
+    pictures = [Image.fromarray(mask.astype(np.uint8) * 255) for mask in (CORNER, ~CORNER)]
+    pictures[0].save(tmp_path / f"a.{kind}", save_all=True, append_images=pictures[1:])
+    with pytest.raises(ValueError, match=rf"a.{kind} holds 2 pictures; save the one"):
+        BlockMap.mask(tmp_path / f"a.{kind}")
+
+
 @pytest.mark.parametrize("kind", [bool, int, np.uint8, float])
 def test_nonzero_values_are_in_contact(saved, kind):
     mask = BlockMap.mask(saved(3 * CORNER.astype(int).astype(kind)))

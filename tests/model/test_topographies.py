@@ -23,9 +23,9 @@ def written(folder, heights, header="# Width: 40 µm\n# Height: 30 µm\n# Value 
     return file
 
 
-def opened(measured):
+def opened(measured, **more):
     """Open any file as this measurement."""
-    channel = SimpleNamespace(name="Main", index=0, nb_grid_pts=measured.nb_grid_pts)
+    channel = SimpleNamespace(name="Main", index=0, nb_grid_pts=measured.nb_grid_pts, **more)
     reader = SimpleNamespace(
         channels=[channel], default_channel=channel, topography=lambda channel_index: measured
     )
@@ -85,8 +85,14 @@ def test_heights_come_from_the_channel_that_is_named(tmp_path, monkeypatch):
     for channel, highest in ((None, 11), ("a", 11), ("b", 0)):
         contact = Cut(file, 1e-5, bearing_area=1 / 12, channel=channel).mask()
         assert np.flatnonzero(contact) == [highest]
-    with pytest.raises(ValueError, match=r"channel must be one of a, b, not .c."):
+    with pytest.raises(ValueError, match=r"channel must be the name of one of a, b, not .c."):
         Cut(file, 1e-5, bearing_area=0.5, channel="c").mask()
+    channels[1].name = "a"
+    with pytest.raises(ValueError, match=r"channel must be the name of one of a, a, not .a."):
+        Cut(file, 1e-5, bearing_area=0.5, channel="a").mask()
+    channels[0].is_height_channel, channels[0].data_unit = False, "V"
+    with pytest.raises(ValueError, match=r"its channel .a. has no heights, but V"):
+        Cut(file, 1e-5, bearing_area=0.5).mask()
 
 
 def test_options_of_the_command_are_those_of_the_cut(springblock, tmp_path):
@@ -106,6 +112,35 @@ def test_the_command_cuts_a_mask_for_the_solver(springblock, tmp_path):
     refusal = springblock("mask", file, "--output", tmp_path / "none.npy", refused=True)
     assert "rough.txt: give either bearing_area or height" in refusal
     assert not (tmp_path / "none.npy").exists()
+
+
+@pytest.mark.parametrize(
+    ("bearing_area", "nearest"),
+    [(1 / 12, "0.25"), (0.5, "0.25 or 0.75"), (0.01, "0.25"), (1.0, "0.25 or 0.75")],
+)
+def test_a_bearing_area_that_no_level_gives_is_refused(
+    tmp_path, monkeypatch, bearing_area, nearest
+):
+    """Three blocks are equally high, six lower, and three were not measured."""
+    heights = np.repeat([[2.0, 1.0, 1.0, np.nan]], 3, axis=0)
+    measured = np.ma.masked_invalid(heights.T)
+    steps = SurfaceTopography.Topography(measured, (40.0, 30.0), unit="µm")
+    monkeypatch.setattr(SurfaceTopography, "open_topography", opened(steps))
+    file = written(tmp_path, HEIGHTS)
+    with pytest.raises(ValueError, match=rf"choose the bearing area {nearest}, or a height$"):
+        Cut(file, 1e-5, bearing_area=bearing_area).mask()
+    for area in map(float, nearest.split(" or ")):
+        assert Cut(file, 1e-5, bearing_area=area).mask().mean() == area
+
+
+def test_a_name_has_all_that_a_cut_was_made_with(tmp_path):
+    """Levels to the last digit, so that no two have one name."""
+    file = written(tmp_path, HEIGHTS)
+    how = [{"bearing_area": 0.5}, {"height": 1.23456789e-9}, {"height": 1.2345678e-9}]
+    how.append({"channel": "Main", "detrend": "plane", "bearing_area": 1})
+    names = [BlockMap.of_topography(Cut(file, 1e-5, **each), tmp_path).name[:-9] for each in how]
+    levels = ["0.5", "1.23456789e-09", "1.2345678e-09", "Main_plane_1.0"]
+    assert names == [f"rough_{level}" for level in levels]
 
 
 def test_jobs_read_what_was_cut(tmp_path):

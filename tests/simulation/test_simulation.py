@@ -7,7 +7,16 @@ import numpy as np
 import pytest
 
 from specimens import drawn, flat, uniform
-from springblock import Material, Pattern, Realisation, Setup, SimulationError, Surface, simulate
+from springblock import (
+    Material,
+    Pattern,
+    Realisation,
+    Setup,
+    SimulationError,
+    Surface,
+    compute_prelude,
+    simulate,
+)
 from springblock.model.defaults import STEP
 from springblock.simulation.run import first_minimum, percent
 from springblock.specification import follow
@@ -118,6 +127,31 @@ def test_a_snapshot_is_the_end_of_a_shorter_run():
         assert short.displacement.tobytes() == u.tobytes()
         assert short.velocity.tobytes() == v.tobytes()
         assert same(long, short, samples=len(short.time))
+
+
+def test_blocks_without_a_measured_value_are_not_in_contact():
+    """They are masked, as SurfaceTopography leaves them; what lies below the mask is arbitrary."""
+    holes = np.ma.masked_array(PILLARS.contact | True, mask=~PILLARS.contact)
+    masked = np.ma.masked_array(np.full((N, N), 1e3), mask=~PILLARS.contact)
+    for contact in (holes, holes.astype(int), list(holes)):
+        surface = Surface(contact, masked, 0.6)
+        np.testing.assert_array_equal(surface.contact, PILLARS.contact)
+        np.testing.assert_array_equal(surface.mu_static, 1e3 * PILLARS.contact)
+    full = np.ones((N, N), bool)
+    for how in (lambda mu: Surface(full, 1.0, mu), lambda mu: compute_prelude(full, mu_static=mu)):
+        for mu in (masked, np.ma.masked):
+            with pytest.raises(ValueError, match="not masked, on all blocks in contact"):
+                how(mu)
+
+
+@pytest.mark.parametrize("more", ["units", "unit", "dims"])
+def test_arrays_that_mean_more_than_their_values_are_refused(more):
+    """As those of pint, astropy and xarray: 60 % is not 60, and (x, y) is not (y, x)."""
+    labelled = type("Labelled", (np.ndarray,), {more: "percent"})
+    values = np.full((2, 2), 60).view(labelled)
+    for surface in ({"contact": values}, {"mu_static": values}):
+        with pytest.raises(TypeError, match=f"must be a plain array, without {more} = percent"):
+            pull(**surface)
 
 
 def test_coefficients_and_masks_may_have_any_numeric_type():

@@ -148,6 +148,7 @@ def surfaces(tmp_path, monkeypatch):
     np.save("strip.npy", np.eye(3, 5, dtype=bool))
     Path("again").mkdir()
     shutil.copy("corner.npy", "again")
+    shutil.copy("corner.npy", "copy.npy")
     np.save("strong.npy", np.full((3, 3), 1.5))
     np.save("weak.npy", np.full((3, 3), -0.5))
     Path("broken.png").write_bytes(b"no image")
@@ -191,6 +192,10 @@ def test_topographies_are_cut_at_the_spacing_of_the_lattice(
             {"mask": ["corner.npy", "again/corner.npy"]},
             r"describe the same surface corner-\w{8}",
         ),
+        (
+            {"mask": ["corner.npy", "copy.npy"]},
+            r"masks corner.npy and copy.npy describe the same surface copy-\w{8}; remove one",
+        ),
         ({"mask": "corner.npy", "height": 1e-6}, "mask cannot be combined with topogr"),
         ({"bearing_area": 0.5}, "scenes.own: bearing_area needs topography"),
         ({"topography": "absent.opd", "height": 1e-6}, "absent.opd does not exist"),
@@ -208,6 +213,17 @@ def test_errors_in_surfaces_from_files_name_the_key(surfaces, grid, sentence):
     with pytest.raises(ValueError, match=sentence) as refusal:
         check(surfaces(**grid), SCHEMA)
     assert "\n" not in str(refusal.value)
+
+
+def test_a_surface_has_one_name_in_the_whole_study(surfaces):
+    """Otherwise it would count as two; the same file may be in several groups."""
+    own = surfaces(mask="corner.npy")
+    for mask in ("corner.npy", "./corner.npy"):
+        own["scenes"]["other"] = own["scenes"]["own"] | {"mask": mask}
+        check(own, SCHEMA)
+    own["scenes"]["other"] = own["scenes"]["own"] | {"mask": "copy.npy"}
+    with pytest.raises(ValueError, match=r"scenes.other: masks corner.npy and copy.npy describe"):
+        check(own, SCHEMA)
 
 
 def test_errors_at_full_size_need_those_on_small_surfaces():

@@ -11,9 +11,9 @@ from springblock.model.numbers import Array, check_whole
 if TYPE_CHECKING:
     from scipy.stats.distributions import rv_frozen
 
+_COEFFICIENTS = ("mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std")
 #: Constants of the material on which a draw depends; with a correlation length also the spacing.
-DRAWN = ("mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std", "distribution")
-DRAWN += ("correlation_length",)
+DRAWN = (*_COEFFICIENTS, "distribution", "correlation_length")
 #: Margin, in correlation lengths, that is added to the surface before correlated normals are drawn
 #: on it with periodic edges. There exp(-r²/ℓ²) is 1e-7, so that opposite edges are uncorrelated.
 _MARGIN = 4.0

@@ -63,11 +63,7 @@ class Cut:
         if not self.spacing > 0.0:
             raise ValueError(f"spacing must be positive, not {self.spacing!r}")
         heights = self._heights()
-        level = self.height
-        if self.bearing_area is not None:
-            highest = np.sort(heights[np.isfinite(heights)])[::-1]
-            number = max(1, round(self.bearing_area * heights.size))
-            level = highest[min(number, highest.size) - 1]
+        level = self._level(heights) if self.height is None else self.height
         contact = heights >= level  # False for NaN
         if not contact.any():
             raise ValueError(
@@ -75,6 +71,30 @@ class Cut:
                 f"{np.nanmax(heights):.4g} m"
             )
         return contact
+
+    def _level(self, heights: Array) -> float:
+        """Height, m, of the lowest block in contact at the given share of blocks in contact.
+
+        Where blocks are equally high or have no height, no level may give this share.
+        """
+        highest = np.sort(heights[np.isfinite(heights)])[::-1]
+        number = round(float(self.bearing_area or 0.0) * heights.size)
+        level = highest[min(max(number, 1), highest.size) - 1]
+        above, reached = np.count_nonzero(highest > level), np.count_nonzero(highest >= level)
+        if reached != number:
+            nearest = " or ".join(f"{n / heights.size:.8g}" for n in (above, reached) if n)
+            raise ValueError(
+                f"{self.topography}: no height puts a share of {self.bearing_area!r} of the blocks "
+                f"in contact; choose the bearing area {nearest}, or a height"
+            )
+        return float(level)
+
+    @property
+    def name(self) -> str:
+        """Name of the file, channel, trend and, by which tables are sorted, level."""
+        level = self.height if self.bearing_area is None else self.bearing_area
+        words = self.topography.stem, self.channel, self.detrend, str(float(level or 0.0))
+        return "_".join(filter(None, words))
 
     def _heights(self) -> Array:
         """Heights in m at the centres of blocks, (N_y, N_x), [y, x]; NaN if not measured."""
@@ -125,7 +145,7 @@ class BlockMap:
             )
         if not found.any():
             raise ValueError(f"{file}: at least one block must be in contact, not zero or black")
-        name = _name(file, values != 0)
+        name = _name(file.stem, values != 0)
         if _IS_NAMED.fullmatch(file.stem) and name != file.stem:
             raise ValueError(f"{file} holds the mask {name}, not that of its name; {MENDING}")
         return cls(name, values != 0, file)
@@ -137,25 +157,22 @@ class BlockMap:
         if values.dtype.kind not in "iuf":
             raise ValueError(f"{file} must hold real numbers, not {values.dtype}")
         values = values.astype(float)
-        return cls(_name(file, values), values, file)
+        return cls(_name(file.stem, values), values, file)
 
     @classmethod
     def of_topography(cls, cut: Cut, folder: Path) -> "BlockMap":
-        """Return the mask of a cut; jobs read it from `folder`.
-
-        Its name contains the bearing area or height, by which tables and figures sort the cuts.
-        """
-        values, level = cut.mask(), cut.height if cut.bearing_area is None else cut.bearing_area
-        name = _name(cut.topography.with_stem(f"{cut.topography.stem}_{level:g}"), values)
+        """Return the mask of a cut; jobs read it from `folder`."""
+        values = cut.mask()
+        name = _name(cut.name, values)
         return cls(name, values, folder / f"{name}.npy", cut)
 
 
-def _name(file: Path, values: Array) -> str:
-    """Name of a file in characters that are safe in paths and tables, with a digest of `values`."""
+def _name(stem: str, values: Array) -> str:
+    """Name in characters that are safe in paths and tables, with a digest of `values`."""
     content = hashlib.sha256(f"{values.dtype.str} {values.shape} ".encode())
     content.update(np.ascontiguousarray(values).tobytes())
     digest = f"-{content.hexdigest()[:8]}"
-    return re.sub(r"[^\w.-]", "_", file.stem).removesuffix(digest) + digest
+    return re.sub(r"[^\w.-]", "_", stem).removesuffix(digest) + digest
 
 
 def _array(file: Path) -> Array:
@@ -180,18 +197,19 @@ def _array(file: Path) -> Array:
 
 def _image(file: Path) -> Array:
     """Read a black and white image, (N_y, N_x) of 0 and 255, last row first."""
-    from PIL import Image, UnidentifiedImageError
+    from PIL import Image, ImageOps, UnidentifiedImageError
 
     if not file.is_file():
         raise ValueError(f"{file} does not exist")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error", Image.DecompressionBombWarning)
-            with Image.open(file, formats=_FORMATS) as image:
+            # from a stream: by name, Pillow 13 garbles plain TIFF files with an orientation
+            with file.open("rb") as stream, Image.open(stream, formats=_FORMATS) as image:
                 if max(image.size) > MAX_BLOCKS:  # only the header has been read
                     raise Image.DecompressionBombError
-                mode = image.mode
-                pixels = np.asarray(image.convert("RGBA"))
+                mode, pictures = image.mode, getattr(image, "n_frames", 1)
+                pixels = np.asarray(ImageOps.exif_transpose(image).convert("RGBA"))
     except UnidentifiedImageError:
         raise ValueError(f"{file} is neither an image nor a NumPy array (.npy)") from None
     except (Image.DecompressionBombWarning, Image.DecompressionBombError):
@@ -200,6 +218,8 @@ def _image(file: Path) -> Array:
         ) from None
     except (OSError, SyntaxError, ValueError) as error:
         raise ValueError(f"{file} cannot be read: {error}") from None
+    if pictures > 1:
+        raise ValueError(f"{file} holds {pictures} pictures; save the one to be used as a file")
     shades, opacity = pixels[..., 0], pixels[..., 3]
     is_grey = mode in _MODES and (pixels[..., :3] == shades[..., None]).all()
     if not (is_grey and np.isin(shades, (0, 255)).all() and (opacity == 255).all()):
@@ -235,10 +255,15 @@ def _measured(
         ) from None
     try:
         with open_topography(file) as reader:
-            channels = {each.name: each for each in reader.channels}
-            if channel is not None and channel not in channels:
-                raise _Unsuitable(f"channel must be one of {', '.join(channels)}, not {channel!r}")
-            chosen = reader.default_channel if channel is None else channels[channel]
+            named = [each for each in reader.channels if channel in (None, each.name)]
+            if channel is not None and len(named) != 1:
+                known = ", ".join(each.name for each in reader.channels)
+                raise _Unsuitable(f"channel must be the name of one of {known}, not {channel!r}")
+            chosen = reader.default_channel if channel is None else named[0]
+            if not getattr(chosen, "is_height_channel", True):  # unknown to version 1.15
+                raise _Unsuitable(
+                    f"its channel {chosen.name!r} has no heights, but {chosen.data_unit}"
+                )
             points = math.prod(chosen.nb_grid_pts)
             if points > _POINTS:
                 raise _Unsuitable(f"it has {points} points; {_POINTS} is the largest number")

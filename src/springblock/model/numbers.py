@@ -11,6 +11,17 @@ Array = NDArray[np.float64]
 REAL = int | float | np.integer | np.floating
 
 
+def as_array(name: str, values: Any) -> np.ma.MaskedArray[Any, Any]:
+    """Return values with their mask, if any; refuse those whose meaning an array would lose."""
+    for more in ("unit", "units", "dims"):  # of pint, astropy and xarray
+        if hasattr(values, more):
+            raise TypeError(
+                f"{name} must be a plain array, without {more} = {getattr(values, more)}"
+            )
+    array: np.ma.MaskedArray[Any, Any] = np.ma.array(values)
+    return array
+
+
 def check_whole(name: str, value: Any, least: int = 1) -> int:
     """Return a whole number as int; refuse other types and numbers below `least`."""
     if isinstance(value, bool) or not isinstance(value, int | np.integer):

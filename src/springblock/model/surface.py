@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from springblock.model.asperities import DRAWN, draw_friction
 from springblock.model.material import Material
-from springblock.model.numbers import Array
+from springblock.model.numbers import Array, as_array
 from springblock.model.pattern import MAX_BLOCKS
 
 #: Least number of blocks per side with periodic edges: with fewer, a block would be its own
@@ -21,9 +21,10 @@ class Surface:
     Parameters
     ----------
     contact : (N_y, N_x) bool, or 0 and 1, [y, x]
-        Blocks in contact with the substrate, as `Pattern.contact`.
+        Blocks in contact with the substrate, as `Pattern.contact`. Masked entries are not.
     mu_static, mu_dynamic : (N_y, N_x) float, or one number for all blocks
-        Microscopic friction coefficients; values outside the contact are ignored.
+        Microscopic friction coefficients; values outside the contact are ignored. Those of blocks
+        in contact must not be masked.
     periodic : bool
         Whether springs join opposite edges, which are free otherwise. Periodic surfaces
         have 3 blocks a side or more.
@@ -94,7 +95,7 @@ def as_mask(contact: ArrayLike) -> NDArray[np.bool_]:
 
     Masks of more than `MAX_BLOCKS` blocks a side, or without a block in contact, are refused.
     """
-    mask = np.array(contact)
+    mask = np.array(as_array("contact", contact).filled(0))
     if mask.dtype != np.bool_:
         if mask.dtype.kind not in "iu":
             raise TypeError(f"contact must be an array of bool, or of 0 and 1, not of {mask.dtype}")
@@ -115,9 +116,10 @@ def as_mask(contact: ArrayLike) -> NDArray[np.bool_]:
 
 def as_coefficients(name: str, values: Any, mask: NDArray[np.bool_]) -> Array:
     """Return coefficients as float, (N_y, N_x), 0 outside the mask; refuse invalid ones by name."""
-    mu = np.asarray(values)
-    if mu.dtype.kind not in "iuf":
-        raise TypeError(f"{name} must be an array of real numbers, not of {mu.dtype}")
+    given = as_array(name, values)
+    if given.dtype.kind not in "iuf":
+        raise TypeError(f"{name} must be an array of real numbers, not of {given.dtype}")
+    mu = np.where(np.ma.getmaskarray(given), np.nan, given.data).astype(float)
     if mu.ndim == 0:
         mu = np.broadcast_to(mu, mask.shape)
     if mu.shape != mask.shape:
@@ -126,5 +128,7 @@ def as_coefficients(name: str, values: Any, mask: NDArray[np.bool_]) -> Array:
         )
     in_contact = mu[mask]
     if not (np.isfinite(in_contact) & (in_contact >= 0.0)).all():
-        raise ValueError(f"{name} must be finite and not negative on all blocks in contact")
-    return np.where(mask, mu, 0.0).astype(float)
+        raise ValueError(
+            f"{name} must be finite and not negative, and not masked, on all blocks in contact"
+        )
+    return np.where(mask, mu, 0.0)

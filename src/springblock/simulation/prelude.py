@@ -21,7 +21,7 @@ from springblock.files import MENDING, read_arrays, whole_file
 from springblock.model.asperities import log_share_above
 from springblock.model.direction import heading
 from springblock.model.numbers import Array
-from springblock.model.surface import Surface, as_mask
+from springblock.model.surface import Surface, as_coefficients, as_mask
 from springblock.simulation.motion import Motion, SimulationError
 from springblock.simulation.setup import DEFAULT, Setup, check_type
 from springblock.solver.lattice import Samples, close_edges, unpadded
@@ -142,8 +142,9 @@ def compute_prelude(
     """
     check_type("setup", setup, Setup)
     mask, material = as_mask(contact), setup.material
-    strongest = material.mu_static if mu_static is None else np.max(np.asarray(mu_static)[mask])
-    setup.plan(mask, float(strongest))  # refuses a run that would be too long
+    known = None if mu_static is None else as_coefficients("mu_static", mu_static, mask)[mask]
+    strongest = material.mu_static if known is None else float(known.max())
+    setup.plan(mask, strongest)  # refuses a run that would be too long
     surface = Surface(mask, 1.0, 0.0, periodic)
     motion = Motion(surface, setup, direction, cores, keep_peak=True)
     state, blocks, peak = motion.state, motion.state.blocks, motion.state.peak
@@ -162,11 +163,11 @@ def compute_prelude(
         except SimulationError:  # before any block detaches: `simulate` raises it again
             break
         needed = np.sqrt(peak[bound]) / load
-        if mu_static is None:
+        if known is None:
             # as if blocks were independent; with correlated coefficients the share is larger
             holding = math.exp(log_share_above(needed, material).sum())
         else:
-            holding = float((needed < np.asarray(mu_static)[mask]).all())
+            holding = float((needed < known).all())
     samples, moving, peaks, ledgers = map(np.array, zip(*kept.values(), strict=True))
     force_x, force_y, _ = motion.recorded()
     return Prelude(

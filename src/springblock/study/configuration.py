@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
-from itertools import chain, combinations, product
+from itertools import chain, product
 from pathlib import Path
 from typing import Any
 
@@ -206,17 +206,30 @@ def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
     """
     groups: dict[str, list[Ensemble]] = {}
     largest: dict[Scene, Ensemble] = {}
+    masks: dict[str, BlockMap] = {}
     for group, grids in configuration["scenes"].items():
         with _named(f"scenes.{group}"):
             parts = grids if isinstance(grids, list) else [grids or {}]
             groups[group] = [each for grid in parts for each in _expand(configuration, grid)]
             for each in groups[group]:
+                _refuse_other_name(each.scene.mask, masks)
                 known = largest.get(each.scene, each)
                 largest[each.scene] = known.joined(each)
     return {
         group: list(dict.fromkeys(largest[each.scene] for each in members))
         for group, members in groups.items()
     }
+
+
+def _refuse_other_name(mask: BlockMap | None, masks: dict[str, BlockMap]) -> None:
+    """Refuse a mask that is already among `masks`, by content, from another file or cut."""
+    if mask is None:
+        return
+    first = masks.setdefault(mask.name.rpartition("-")[2], mask)
+    if first.file != mask.file:
+        raise ValueError(
+            f"masks {first.file} and {mask.file} describe the same surface {mask}; remove one"
+        )
 
 
 def setup(configuration: Configuration) -> Setup:
@@ -280,12 +293,7 @@ def _maps(
         for name in ("mu_static", "mu_dynamic")
         if name in grid
     }
-    masks = list(_masks(configuration, grid, constants))
-    for one, other in combinations(masks, 2):
-        if one == other:
-            raise ValueError(
-                f"masks {one.file} and {other.file} describe the same surface {one}; remove one"
-            )
+    masks = _masks(configuration, grid, constants)
     return [own | {"mask": mask} for mask in masks] or [own]
 
 
