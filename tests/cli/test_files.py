@@ -95,6 +95,46 @@ def test_nothing_but_a_regular_file_is_replaced(springblock, tmp_path, kind):
     assert (tmp_path / "table").read_text() == "theirs"
 
 
+#: For each command that writes, words that it would take, and names of other types of files.
+OF_OTHER_TYPES = {
+    ("mask", __file__): "area.png",
+    ("simulate", "--n-blocks", 4): "run.csv",
+    ("prelude", "--n-blocks", 4): "run.parquet",
+    ("aggregate", __file__, *CONFIGURATION): "all.npy",
+    ("make", "stability"): "page.md",
+    ("make", "collect", __file__): "table.csv",
+    ("make", "beyond", __file__): "page.parquet",
+    ("report", __file__): "report.pdf",
+    ("dictionary",): "tables.parquet",
+    ("figure", "figure_1"): "figure.jpg",
+    ("show", "--n-blocks", 4): "surface",
+    ("plot", __file__): "run.parquet",
+    ("animate", __file__): "run.png",
+    ("archive", "."): "study.tar",
+    ("table", __file__): "means.md",
+}
+
+
+@pytest.mark.parametrize(("words", "name"), OF_OTHER_TYPES.items())
+def test_a_name_of_another_type_of_file_is_refused_before_anything_is_read(
+    springblock, tmp_path, words, name
+):
+    said = springblock(*words, "--output", tmp_path / name, refused=True)
+    assert f"{name}: choose a name that ends in ." in said
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_two_outputs_are_two_files(springblock, batch, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names = ("--output-correlation", "a.parquet", "--output-length", tmp_path / "a.parquet")
+    said = springblock("correlation", batch(0, 2), *names, refused=True)
+    assert said.endswith("a.parquet; choose two files")
+    same = ("--output", "a.png", "--output", "a.png")
+    for words in (("plot", batch(0, 0)), ("figure", "figure_1")):
+        assert "given twice" in springblock(*words, *same, refused=True)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_file_is_no_folder_to_write_to(springblock, tmp_path):
     (tmp_path / "file").touch()
     refusal = springblock("dictionary", "--output", tmp_path / "file/deep/table", refused=True)

@@ -61,9 +61,9 @@ def test_a_surface_is_shown(springblock, tmp_path):
 def test_other_formats_are_refused(springblock, batch, tmp_path):
     output = ("--output", tmp_path / "run.avi")
     said = springblock("plot", batch(0, 1), *output, refused=True)
-    assert "unknown type of figure; choose one of .pdf, .png, .svg" in said
+    assert "run.avi: choose a name that ends in .pdf or .png or .svg" in said
     said = springblock("animate", batch(0, 1), *output, refused=True)
-    assert "unknown type of film; choose .gif or .mp4" in said
+    assert "run.avi: choose a name that ends in .gif or .mp4" in said
     assert list(tmp_path.iterdir()) == []
 
 

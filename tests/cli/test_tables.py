@@ -123,9 +123,10 @@ def test_other_thresholds_are_not_paired_and_ensembles_of_one_side_are_named(
 
 
 def test_a_table_is_csv_or_parquet(springblock, batch, tmp_path):
-    said = springblock("table", batch(0, 2), "--output", tmp_path / "a.txt", refused=True)
-    assert "a.txt: unknown type of file; choose .csv or .parquet" in said
-    assert not (tmp_path / "a.txt").exists()
+    for name in ("a.txt", "a"):
+        said = springblock("table", batch(0, 2), "--output", tmp_path / name, refused=True)
+        assert f"{name}: choose a name that ends in .csv or .parquet" in said
+        assert not (tmp_path / name).exists()
 
 
 @pytest.mark.parametrize("turned", [False, True])

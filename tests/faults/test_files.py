@@ -60,7 +60,8 @@ def test_a_bad_file_is_refused_by_name_and_set_aside(study, springblock, tmp_pat
     assert sentence in found.reason
     assert "`snakemake repair`" in found.reason
     words = [w.format(file=file, results=study.results, other=OTHER) for w in READERS[place]]
-    said = springblock(*words, "--output", tmp_path / "a.png", refused=True)
+    name = "a.png" if place == TABLE else "a.parquet"
+    said = springblock(*words, "--output", tmp_path / name, refused=True)
     assert said.startswith("Error: ")
     assert str(file) in said
     assert not list(tmp_path.glob("a*"))

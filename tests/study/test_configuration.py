@@ -112,6 +112,8 @@ def test_numbers_given_as_text_are_converted():
     ways = {"direction": ["x", "15"], "n_s": ["2n_p", "n_p"], "accuracy": "true"}
     assert completed(ways) == {"direction": ["x", 15], "n_s": ["2n_p", "n_p"], "accuracy": True}
     assert completed(PAPER) == PAPER
+    others = {"channel": ["1_2", "010", "nan", "inf", "٣", "0x1F", "1e", "-", ".", ""]}
+    assert completed(others) == others
 
 
 @pytest.mark.parametrize("added", [3, ["scenes"]])
@@ -309,6 +311,8 @@ def test_a_scene_of_two_groups_keeps_the_fields_that_either_asks_for():
         ("scenes.size_flat.n_blocks", [120], "duration must be the same wherever n_blocks = 120"),
         ("scenes.grooves", PAPER["scenes"]["gaps"], "grooves: .* of level 2, not 1"),
         ("figures.sweeps.angle.groups", ["speeds"], "groups: unknown group 'speeds'; choose from"),
+        ("figures.sweeps.angle.groups", ["flat", "flat"], "groups is not valid: .* non-unique"),
+        ("figures.sweeps.angle.of", ["t_max", "t_max"], "of is not valid: .* non-unique"),
         ("figures.sweeps.angle.over", "speed", "over: unknown axis 'speed'; choose one .*n_p"),
         ("step", 1e-30, "scenes.flat: step = 1e-30 s is too short for a loading time"),
         ("n_blocks", 24.0, "n_blocks is not valid: 24.0 is not of type 'integer' .N, blocks"),

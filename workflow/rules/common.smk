@@ -19,16 +19,17 @@ from snakemake_interface_logger_plugins.common import LogEvent
 from springblock.provenance import configuration_digest, digest
 from springblock.study import configuration as study
 from springblock.study import cost, record
+from springblock.study.written import LOADER, check_file
 
-# PyYAML's reader in C is ten times as fast, where it is installed.
-LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
     SCHEMA = yaml.load(file, LOADER)
 
-config = study.completed(config)
-RESULTS = str(Path(config.get("results", "")))  # without a slash at the end
 try:
+    for file in workflow.configfiles if workflow.is_main_process else []:
+        check_file(Path(file))
+    config = study.completed(config)
     study.check(config, SCHEMA)
+    RESULTS = str(Path(config["results"]))  # without a slash at the end
     if workflow.is_main_process:
         record.refuse_unknown(Path(RESULTS), config)
 except (TypeError, ValueError) as error:

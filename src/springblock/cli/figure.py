@@ -8,7 +8,8 @@ from typing import Any
 
 import click
 
-from springblock.cli.options import INPUT, OUTPUT, scene_options, with_options
+from springblock.cli import StrictGroup
+from springblock.cli.options import INPUT, PICTURE, scene_options, with_options
 from springblock.io.parquet import load, read, refuse_mixture
 from springblock.io.records import Record, read_records
 from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH
@@ -59,7 +60,7 @@ _DATA: dict[str, tuple[list[Callable[..., Any]], Callable[..., list[Any]]]] = {
     "correlations": ([_one("correlation"), _many("lengths")], _correlations),
 }
 _OUTPUTS = click.option(
-    "--output", "outputs", type=OUTPUT, multiple=True, required=True, help="PDF, PNG or SVG file."
+    "--output", "outputs", type=PICTURE, multiple=True, required=True, help="PDF, PNG or SVG file."
 )
 _CAPTION = click.option(
     "--caption", help="Caption in the file's metadata, in place of the general one."
@@ -81,6 +82,7 @@ def _command(name: str, declared: Declaration) -> click.Command:
 
 @click.group(
     "figure",
+    cls=StrictGroup,
     commands=[_command(*item) for item in FIGURES.items()],
     subcommand_metavar="NAME [INPUTS]... --output FILE",
 )

@@ -7,7 +7,7 @@ import click
 
 from springblock.accuracy.conventions import COMPARISONS, SCENES
 from springblock.beyond.question import by_scene
-from springblock.cli.options import INPUT, OUTPUT, code_version
+from springblock.cli.options import INPUT, Output, check_type, code_version
 from springblock.files import write_text
 from springblock.io.parquet import load, origin_of, read, rows_to_table, write
 from springblock.io.records import read_records
@@ -34,7 +34,9 @@ INPUTS = {
 @click.argument("name", type=click.Choice(list(INPUTS)), metavar="NAME")
 @click.argument("inputs", type=INPUT, nargs=-1)
 @click.option("--configuration", help="Digest of the configuration, for `collect`.")
-@click.option("--output", type=OUTPUT, required=True, help="Parquet file, or Markdown for a page.")
+@click.option(
+    "--output", type=Output(), required=True, help="Parquet file, or Markdown for a page."
+)
 def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output: Path) -> None:
     """Make the table or page NAME.
 
@@ -54,6 +56,7 @@ def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output:
     wanted, least, most = INPUTS[name]
     if len(inputs) < least or (most is not None and len(inputs) > most):
         raise ValueError(f"{name}: {len(inputs)} files given; give {wanted}")
+    check_type(output, ".parquet" if name in (*MEASURED, "collect") else ".md")
     if name in MEASURED:
         _measure(name, output)
     elif name == "collect":
@@ -111,7 +114,7 @@ def _page(name: str, files: tuple[Path, ...]) -> str:
     help="MP4 file and the batch whose first run it shows. Can be repeated.",
 )
 @click.option("--own", is_flag=True, help="Report on a study with `study: own`.")
-@click.option("--output", type=OUTPUT, required=True, help="HTML file.")
+@click.option("--output", type=Output(".html"), required=True, help="HTML file.")
 def report(
     files: tuple[Path, ...], films: tuple[tuple[Path, Path], ...], own: bool, output: Path
 ) -> None:

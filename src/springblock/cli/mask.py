@@ -6,7 +6,7 @@ from typing import Any
 import click
 import numpy as np
 
-from springblock.cli.options import INPUT, OUTPUT, defaulted
+from springblock.cli.options import INPUT, Output, defaulted
 from springblock.files import whole_file
 from springblock.model.blockmap import TRENDS, Cut
 from springblock.model.material import Material
@@ -25,7 +25,7 @@ from springblock.model.material import Material
 @click.option(
     "--detrend", type=click.Choice(list(TRENDS)), help="Trend to subtract before the cut."
 )
-@click.option("--output", type=OUTPUT, required=True, help="NumPy array (.npy).")
+@click.option("--output", type=Output(".npy"), required=True, help="NumPy array (.npy).")
 def mask(topography: Path, output: Path, **cut: Any) -> None:
     """Cut a measured TOPOGRAPHY into a contact mask.
 

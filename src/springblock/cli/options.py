@@ -16,18 +16,34 @@ from springblock.model.direction import normalised
 from springblock.model.scene import EDGES, Scene, Varied, in_order
 
 
-class _Output(click.Path):
-    """Path of a file that a command writes."""
+def check_type(path: Path, *suffixes: str) -> None:
+    """Refuse a name of another type of file. Where there is only one type, a name may have none."""
+    if path.suffix not in suffixes and (path.suffix or len(suffixes) > 1):
+        raise ValueError(f"{path}: choose a name that ends in {' or '.join(suffixes)}")
 
-    def convert(self, value: Any, *where: Any) -> Any:
-        path: Any = super().convert(value, *where)
+
+class Output(click.Path):
+    """Path of a file of one of several types that a command writes."""
+
+    def __init__(self, *suffixes: str) -> None:
+        super().__init__(dir_okay=False, path_type=Path)
+        self.suffixes = suffixes
+
+    def convert(self, value: Any, param: Any, ctx: click.Context | None) -> Any:
+        path: Any = super().convert(value, param, ctx)
         check_output(path)
+        if self.suffixes:
+            check_type(path, *self.suffixes)
+        others = ctx.meta.setdefault(__name__, set()) if ctx else set()
+        if path.absolute() in others:
+            raise ValueError(f"two options name {path}; choose two files")
+        others.add(path.absolute())
         return path
 
 
 #: An option whose help shows its default.
 defaulted = partial(click.option, show_default=True)
-OUTPUT = _Output(dir_okay=False, path_type=Path)
+PICTURE = Output(".pdf", ".png", ".svg")
 INPUT = click.Path(exists=True, dir_okay=False, path_type=Path)
 
 
@@ -43,9 +59,20 @@ def given(read: Callable[[Any], Any]) -> Callable[..., Any]:
     return value_of
 
 
+def by_name(pairs: tuple[str, ...]) -> dict[str, str]:
+    """Return the texts of NAME=TEXT, each name once."""
+    found: dict[str, str] = {}
+    for pair in pairs:
+        name, _, text = pair.partition("=")
+        if name in found:
+            raise ValueError(f"{name} is given twice, as {found[name]} and {text}; give it once")
+        found[name] = text
+    return found
+
+
 def name_value_pairs(pairs: tuple[str, ...]) -> Varied:
     """Read constants from their options."""
-    return in_order(dict(pair.partition("=")[::2] for pair in pairs))
+    return in_order(by_name(pairs))
 
 
 #: Options of a surface, without those that a sweep varies.

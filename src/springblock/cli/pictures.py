@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 from matplotlib.figure import Figure
 
-from springblock.cli.options import INPUT, OUTPUT, scene_options
+from springblock.cli.options import INPUT, PICTURE, Output, scene_options
 from springblock.io.fields import read_fields
 from springblock.io.parquet import read as read_tables
 from springblock.io.records import Record, read
@@ -52,7 +52,7 @@ def _fields(files: tuple[Path, ...], options: object) -> Figure:
 @click.option(
     "--output",
     "outputs",
-    type=OUTPUT,
+    type=PICTURE,
     multiple=True,
     required=True,
     help="PDF, PNG or SVG file. Can be repeated.",
@@ -92,7 +92,9 @@ def plot(
 @click.command("animate")
 @click.argument("run", type=INPUT)
 @_SEED
-@click.option("--output", type=OUTPUT, required=True, help="GIF or MP4 file (7.5 s).")
+@click.option(
+    "--output", type=Output(".gif", ".mp4"), required=True, help="GIF or MP4 file (7.5 s)."
+)
 def animate(run: Path, seed: int | None, output: Path) -> None:
     """Film one run of a file: detaching blocks and force curve."""
     film.animate(_chosen(run, seed), output)
@@ -100,7 +102,7 @@ def animate(run: Path, seed: int | None, output: Path) -> None:
 
 @click.command("show")
 @scene_options
-@click.option("--output", type=OUTPUT, required=True, help="PDF, PNG or SVG file.")
+@click.option("--output", type=PICTURE, required=True, help="PDF, PNG or SVG file.")
 def show(scene: Scene, output: Path) -> None:
     """Draw the blocks in contact and the sliding direction."""
     picture = still.show(scene.contact, scene.direction, str(scene))

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from springblock.analysis.comparison import differences
-from springblock.cli.options import INPUT, OUTPUT, defaulted
+from springblock.cli.options import INPUT, Output, defaulted
 from springblock.io.parquet import load
 from springblock.study import audit
 
@@ -103,7 +103,7 @@ def repair(results: Path) -> None:
     default=Path("config/config.yaml"),
     help="Configuration of the study.",
 )
-@click.option("--output", type=OUTPUT, required=True, help="File of type .zip.")
+@click.option("--output", type=Output(".zip"), required=True, help="File of type .zip.")
 def archive_study(results: Path, configuration: Path, output: Path) -> None:
     """Pack a study into one file, an RO-Crate.
 

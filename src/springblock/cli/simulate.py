@@ -16,7 +16,7 @@ from tqdm.contrib.logging import logging_redirect_tqdm
 
 from springblock.cli.options import (
     INPUT,
-    OUTPUT,
+    Output,
     code_version,
     defaulted,
     given,
@@ -25,7 +25,7 @@ from springblock.cli.options import (
     with_options,
 )
 from springblock.files import MENDING
-from springblock.io.fields import check_name, write_fields
+from springblock.io.fields import write_fields
 from springblock.io.parquet import rows_to_table, write
 from springblock.io.rows import Row
 from springblock.io.schemas import BATCH, SNAPSHOTS
@@ -83,7 +83,9 @@ def setup_of(options: dict[str, Any]) -> Setup:
     """Remove the options of a setup from `options`, and return the setup."""
     given = {field.name: options.pop(field.name) for field in fields(Setup)}
     law = options.pop("law")
-    constants = dict(given.pop("material")) | ({} if law is None else {"law": law})
+    constants = dict(given.pop("material"))
+    if law is not None and constants.setdefault("law", law) != law:
+        raise ValueError(f"the law is given twice, as {constants['law']} and {law}; give it once")
     return Setup(Material().vary(constants), **given)
 
 
@@ -124,7 +126,7 @@ _CORES = defaulted("--cores", type=int, default=1, help="Cores for one large sur
 @click.command("prelude")
 @setup_options
 @_CORES
-@click.option("--output", type=OUTPUT, required=True, help="File of type .npz.")
+@click.option("--output", type=Output(".npz"), required=True, help="File of type .npz.")
 def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
     """Compute the loading of a scene up to its first detachment.
 
@@ -157,7 +159,7 @@ def loaded(scene: Scene, setup: Setup, cores: int = 1) -> Prelude:
 @click.option(
     "--fields",
     "field_file",
-    type=OUTPUT,
+    type=Output(".nc"),
     help="NetCDF file (.nc) of displacement, velocity, slip, stress and state of blocks at the "
     "times of --snapshot. One seed.",
 )
@@ -174,7 +176,7 @@ def loaded(scene: Scene, setup: Setup, cores: int = 1) -> Prelude:
     help="Minutes between checkpoints. After an interruption the same command continues from the "
     "file OUTPUT.checkpoint, which is removed at the end. One seed.",
 )
-@click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
+@click.option("--output", type=Output(".parquet"), required=True, help="Parquet file.")
 def simulate_batch(
     scene: Scene,
     setup: Setup,
@@ -202,7 +204,7 @@ def simulate_batch(
         raise ValueError(
             f"--checkpoint takes one seed, not {len(seeds)}; for more, use `springblock sweep`"
         )
-    _check_fields(field_file, output, snapshot_times, seeds)
+    _check_fields(field_file, snapshot_times, seeds)
     asked: dict[str, Any] = {"duration": duration}
     if snapshot_times:
         asked["snapshot_times"] = snapshot_times
@@ -242,19 +244,14 @@ def _in_words(rows: list[Row]) -> str:
     return ", ".join(told) + runs + note
 
 
-def _check_fields(
-    field_file: Path | None, output: Path, snapshot_times: tuple[float, ...], seeds: range
-) -> None:
-    """Refuse --fields where there is nothing to write, or no place for it."""
+def _check_fields(field_file: Path | None, snapshot_times: tuple[float, ...], seeds: range) -> None:
+    """Refuse --fields where there is nothing to write, or more than one run."""
     if field_file is None:
         return
-    check_name(field_file)
     if not snapshot_times:
         raise ValueError(f"--fields {field_file} needs times: give one or more with --snapshot")
     if len(seeds) > 1:
         raise ValueError(f"--fields {field_file} takes one seed, not {len(seeds)}")
-    if field_file.absolute() == output.absolute():
-        raise ValueError(f"--fields and --output both name {output}; choose two files")
 
 
 def realised(

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import click
 from tqdm import tqdm
 
-from springblock.cli.options import SURFACE, defaulted, given, scene_of, with_options
+from springblock.cli.options import SURFACE, by_name, defaulted, given, scene_of, with_options
 from springblock.cli.simulate import SETUP, batch_table, loaded, metadata_of, realised, setup_of
 from springblock.io.parquet import load, origin_of, read, write
 from springblock.io.schemas import SUMMARY
@@ -71,7 +71,7 @@ class Job(NamedTuple):
 
 def _varied(pairs: tuple[str, ...]) -> list[Varied]:
     """Return every combination of constants with several values each."""
-    lists = {name: text.split(",") for name, _, text in (pair.partition("=") for pair in pairs)}
+    lists = {name: text.split(",") for name, text in by_name(pairs).items()}
     values = product(*lists.values())
     return [in_order(dict(zip(lists, each, strict=True))) for each in values]
 

@@ -10,7 +10,7 @@ import pyarrow.parquet as pq
 
 from springblock.analysis.ensembles import OBSERVABLES, changes, ensembles, telling
 from springblock.analysis.statistics import Interval
-from springblock.cli.options import INPUT, OUTPUT, defaulted, print_columns
+from springblock.cli.options import INPUT, Output, defaulted, print_columns
 from springblock.files import whole_file, write_text
 from springblock.io.parquet import load, origin_of
 from springblock.io.rows import Row, limits
@@ -28,7 +28,9 @@ _OF = defaulted(
     help="Observable. Can be repeated.",
 )
 _OUTPUT = click.option(
-    "--output", type=OUTPUT, help="CSV or Parquet file of all numbers, in SI units."
+    "--output",
+    type=Output(".csv", ".parquet"),
+    help="CSV or Parquet file of all numbers, in SI units.",
 )
 
 
@@ -135,13 +137,11 @@ def _write(rows: list[Row], output: Path) -> None:
     with whole_file(output) as partial:
         if output.suffix == ".parquet":
             pq.write_table(pa.Table.from_pylist(rows), partial)
-        elif output.suffix == ".csv":
+        else:
             with partial.open("w", newline="", encoding="utf-8") as file:
                 writer = csv.DictWriter(file, rows[0])
                 writer.writeheader()
                 writer.writerows(rows)
-        else:
-            raise ValueError(f"{output}: unknown type of file; choose .csv or .parquet")
 
 
 @click.command("info")
@@ -161,7 +161,7 @@ def info(file: Path) -> None:
 
 
 @click.command("dictionary")
-@click.option("--output", type=OUTPUT, required=True, help="Markdown file.")
+@click.option("--output", type=Output(".md"), required=True, help="Markdown file.")
 def dictionary(output: Path) -> None:
     """Write the columns of all tables with units and meanings."""
     write_text(output, page())

@@ -186,8 +186,6 @@ def save(picture: Figure, path: Path, caption: str | None = None) -> None:
 
     Its bytes depend on the picture and the caption alone; the caption is kept in the metadata.
     """
-    if path.suffix not in _METADATA:
-        raise ValueError(f"{path}: unknown type of figure; choose one of {', '.join(_METADATA)}")
     described = {"Subject" if path.suffix == ".pdf" else "Description": caption}
     metadata = _METADATA[path.suffix] | (described if caption else {})
     settle(picture)

@@ -1,7 +1,7 @@
 """Configuration of a study: checks, and expansion into scenes and batches of seeds."""
 
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from itertools import chain, product
 from pathlib import Path
@@ -18,6 +18,7 @@ from springblock.model.scene import LENGTHS, TEXTS, Scene, Varied
 from springblock.model.surface import Surface
 from springblock.simulation.setup import Setup
 from springblock.study.texts import check_texts
+from springblock.study.written import NUMBER
 
 Configuration = Mapping[str, Any]
 
@@ -84,10 +85,9 @@ def _with_numbers(value: Any, key: str = "") -> Any:
         return [_with_numbers(inner) for inner in value]
     if not isinstance(value, str) or key == "results":
         return value
-    for read in (int, float, _YAML_WORDS.__getitem__):
-        with suppress(ValueError, KeyError):
-            return read(value)
-    return value
+    if NUMBER.fullmatch(value):
+        return float(value) if set(value) & set(".eE") else int(value)
+    return _YAML_WORDS.get(value, value)
 
 
 def _continued(node: Any, more: Any) -> Any:
