@@ -1,5 +1,6 @@
 """Laws of friction from files: closed forms, other solvers, and what they may not be."""
 
+import hashlib
 import math
 import pickle
 import re
@@ -155,6 +156,11 @@ FRICTION = "def friction(mu_dynamic):\n    return mu_dynamic\n"
             "CONSTANTS = {'gamma': (1.0, '')}\n" + FRICTION,
             "'gamma' is a constant of the material",
         ),
+        (FRICTION + FRICTION, "'friction' is defined twice; remove one"),
+        (
+            "CONSTANTS = {'a': (1.0, ''), 'a': (2.0, '')}\n" + FRICTION,
+            "'a' is defined twice; remove one",
+        ),
         ("STATE = ['s']\n" + FRICTION, "STATE must be a dictionary"),
         ("STATE = {'s': 'a'}\n" + FRICTION, r"STATE\['s'\] must be a number or the name of"),
         ("STATE = {'s': 0.0}\n" + FRICTION, "must define the function update"),
@@ -175,6 +181,25 @@ def test_a_file_that_is_no_law_is_refused_in_one_sentence(text, sentence, tmp_pa
     with pytest.raises(ValueError, match=sentence) as refused:
         Setup(Material(law=file))
     assert re.match(rf"{re.escape(str(tmp_path))}/law.py|law-[0-9a-f]{{8}}", str(refused.value))
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "latin-1"])
+def test_a_law_is_read_in_the_encoding_that_it_declares(tmp_path, encoding):
+    """A byte order mark, or the comment of PEP 263; its name depends on the text alone."""
+    file, text = tmp_path / "law.py", f"# coding: {encoding}\n# Größe\n{FRICTION}"
+    file.write_text(text, encoding=encoding)
+    law = LawFile.read(file)
+    assert law.friction(0.25) == 0.25
+    assert law.name == f"law-{hashlib.sha256(text.encode()).hexdigest()[:8]}"
+
+
+@pytest.mark.parametrize("declared", ["utf-8", "no-such-encoding", "hex"])
+def test_a_law_in_another_encoding_than_it_declares_is_refused(tmp_path, declared):
+    file = tmp_path / "law.py"
+    file.write_bytes(f"# coding: {declared}\n# Größe\n{FRICTION}".encode("latin-1"))
+    with pytest.raises(ValueError, match=r"law.py cannot be read: ") as refused:
+        LawFile.read(file)
     assert "\n" not in str(refused.value)
 
 

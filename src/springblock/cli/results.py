@@ -62,7 +62,7 @@ def _is_sound(results: Path, other: Path | None) -> bool:
     click.echo("\n".join(found or [complete]))
     same = []
     if other is not None:
-        for file in sorted(results.glob("tables/*.parquet")):
+        for file in sorted(results.glob("tables/[!.]*.parquet")):
             name = file.relative_to(results)
             same.append(_are_the_same(str(name), file, other / name))
     return not found and all(same)

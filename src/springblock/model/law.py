@@ -1,9 +1,11 @@
 """Laws of friction read from files: see `docs/howto.md`, "A law of your own"."""
 
+import ast
 import hashlib
 import inspect
 import math
 import re
+import tokenize
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
@@ -48,15 +50,17 @@ class LawFile:
     def read(cls, file: Path, **constants: float) -> "LawFile":
         """Read a law; `constants` replace values in the file."""
         try:
-            source = file.read_text(encoding="utf-8")
+            with tokenize.open(file) as text:  # in the encoding that the file declares
+                source = text.read()
         except FileNotFoundError:
             raise ValueError(f"{file} does not exist") from None
-        except (OSError, UnicodeDecodeError) as error:
+        except (OSError, SyntaxError, LookupError, UnicodeDecodeError) as error:
             raise ValueError(f"{file} cannot be read: {error}") from None
         stem = re.sub(r"[^\w.-]", "_", file.stem)
         digest = hashlib.sha256(source.encode()).hexdigest()[:8]
         law = cls(f"{stem}-{digest}", file=file, source=source)
         law._check_definitions()
+        law._check_repetition()
         units = {
             name: "" if unit == "1" else unit
             for name, (_, unit) in law._module.get("CONSTANTS", {}).items()
@@ -172,6 +176,18 @@ class LawFile:
                         f"{self.file}: {function} has the unknown argument {name!r}; choose from "
                         f"{', '.join([*more, *own])}"
                     )
+
+    def _check_repetition(self) -> None:
+        """Refuse names that the file defines twice, of which Python would keep the last."""
+        for node in ast.walk(ast.parse(self.source)):
+            names: list[Any] = []
+            if isinstance(node, ast.Dict):
+                names = [key.value for key in node.keys if isinstance(key, ast.Constant)]
+            elif isinstance(node, ast.Module):
+                names = [part.name for part in node.body if isinstance(part, ast.FunctionDef)]
+            for name in names:
+                if names.count(name) > 1:
+                    raise ValueError(f"{self.file}: {name!r} is defined twice; remove one")
 
     def check(self, mu_static: float, mu_dynamic: float, step: float) -> None:
         """Refuse a law that fails with the mean coefficients at one of several speeds."""
