@@ -131,7 +131,9 @@ def test_two_outputs_are_two_files(springblock, batch, tmp_path, monkeypatch):
     assert said.endswith("a.parquet; choose two files")
     same = ("--output", "a.png", "--output", "a.png")
     for words in (("plot", batch(0, 0)), ("figure", "figure_1")):
-        assert "given twice" in springblock(*words, *same, refused=True)
+        assert "a.png; choose two files" in springblock(*words, *same, refused=True)
+    said = springblock("figure", "figure_1", "--caption", "a", "--caption", "b", refused=True)
+    assert "'--caption': given twice" in said
     assert list(tmp_path.iterdir()) == []
 
 

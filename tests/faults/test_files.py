@@ -128,10 +128,10 @@ def test_a_batch_with_a_seed_missing_is_not_aggregated(study, springblock, tmp_p
 
 
 def test_companions_that_other_systems_leave_beside_tables_are_passed_over(study, springblock):
-    (study.results / "tables/._claims.parquet").write_bytes(b"Mac OS X")
+    (study.results / "tables/._realisations.parquet").write_bytes(b"Mac OS X")
     said = springblock("verify", study.results, study.results)
-    assert "tables/claims.parquet: the same" in said
-    assert "._claims" not in said
+    assert "tables/realisations.parquet: the same" in said
+    assert "._realisations" not in said
 
 
 def test_each_flipped_bit_of_a_batch_is_noticed(study, rng):

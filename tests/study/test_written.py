@@ -21,11 +21,11 @@ def written(folder, text, encoding="utf-8"):
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        (f"scenes:\n  a: {SCENE}\n  'a': {SCENE}\n", "scenes has the key 'a' twice; remove one"),
-        ("step: 1.0\nstep: 2.0\n", "it has the key 'step' twice"),
-        ('{"scenes": {"a": [{"seeds": 1, "seeds": 2}]}}', "scenes.a.0 has the key 'seeds' twice"),
+        (f"scenes:\n  a: {SCENE}\n  'a': {SCENE}\n", "scenes: 'a' is given twice; remove one"),
+        ("step: 1.0\nstep: 2.0\n", "the configuration: 'step' is given twice"),
+        ('{"scenes": {"a": [{"seeds": 1, "seeds": 2}]}}', "scenes.a: 'seeds' is given twice"),
         ("seed: 010", "seed is 010, which YAML takes for 8; write a decimal number"),
-        ("a: [1, 1:30]", "a.1 is 1:30, which YAML takes for 90"),
+        ("a: [1, 1:30]", "a is 1:30, which YAML takes for 90"),
         ("a: 1_2", "a is 1_2, which YAML takes for 12"),
         ("a: -0x1F", "a is -0x1F, which YAML takes for -31"),
         ("a: 0b11", "a is 0b11, which YAML takes for 3"),
@@ -37,14 +37,14 @@ def written(folder, text, encoding="utf-8"):
         ),
         ("a: !!set {b}", "a is a collection, which YAML takes for a set"),
         ("a: !own b", "a is b, which YAML takes for a !own"),
-        ("a: &a [*a]", "a.0 contains itself"),
-        ("a: &a {b: [*a]}", "a.b.0 contains itself"),
-        (LAUGHS, "a6 .* has more than 1000000 values with its aliases"),
+        ("a: &a [*a]", "a has more than 100000 values; no alias may"),
+        ("a: &a {b: [*a]}", "a has more than 100000 values; no alias may"),
+        (LAUGHS, "a29 has more than 100000 values"),
         ("a: [", "while parsing a flow"),
     ],
 )
 def test_what_yaml_would_drop_or_convert_is_refused(tmp_path, text, sentence):
-    with pytest.raises(ValueError, match=rf"a.yaml: {sentence}") as refusal:
+    with pytest.raises(ValueError, match=rf"a.yaml:? {sentence}") as refusal:
         check_file(written(tmp_path, text))
     assert "\n" not in str(refusal.value)
 
@@ -72,4 +72,4 @@ def test_a_study_refuses_what_a_file_does_not_say_clearly(tmp_path):
     assert "results is not valid: ['a'] is not of type 'string'" in said
     again = written(tmp_path, yaml.safe_dump({"n_blocks": 24}) + "n_blocks: 36\n", "utf-8-sig")
     said = study.run("-n", configuration=("config/quick.yaml", again.name), refused=True)
-    assert "a.yaml: it has the key 'n_blocks' twice" in said
+    assert "a.yaml: the configuration: 'n_blocks' is given twice" in said

@@ -156,10 +156,10 @@ FRICTION = "def friction(mu_dynamic):\n    return mu_dynamic\n"
             "CONSTANTS = {'gamma': (1.0, '')}\n" + FRICTION,
             "'gamma' is a constant of the material",
         ),
-        (FRICTION + FRICTION, "'friction' is defined twice; remove one"),
+        (FRICTION + FRICTION, "'friction' is given twice; remove one"),
         (
             "CONSTANTS = {'a': (1.0, ''), 'a': (2.0, '')}\n" + FRICTION,
-            "'a' is defined twice; remove one",
+            "'a' is given twice; remove one",
         ),
         ("STATE = ['s']\n" + FRICTION, "STATE must be a dictionary"),
         ("STATE = {'s': 'a'}\n" + FRICTION, r"STATE\['s'\] must be a number or the name of"),

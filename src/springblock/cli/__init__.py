@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pkgutil import resolve_name
+from typing import Any
 
 import click
 
@@ -48,18 +49,14 @@ def one_sentence() -> Iterator[None]:
 class StrictGroup(click.Group):
     """Commands that refuse an option given twice, of which click would use the last value."""
 
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
+    def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
         name, command, words = super().resolve_command(ctx, args)
-        if command is not None and not ctx.resilient_parsing:
+        if command is not None:
             inner = click.Context(command, ctx, name)
-            given, _, order = command.make_parser(inner).parse_args(words.copy())
-            for option in order:
-                values = (
-                    given[str(option.name)] if option.multiple else order.count(option) * [None]
-                )
-                if option.param_type_name == "option" and len(set(values)) < len(values):
+            _, _, given = command.make_parser(inner).parse_args(words.copy())
+            for option in given:
+                once = isinstance(option, click.Option) and not option.multiple
+                if once and given.count(option) > 1:
                     raise click.BadParameter("given twice; give it once", inner, option)
         return name, command, words
 

@@ -13,7 +13,7 @@ from springblock.claims.page import page
 from springblock.claims.rule import ENOUGH, Evidence
 from springblock.claims.stress import elastic_forces
 from springblock.claims.table import SCHEMA, rows
-from springblock.cli.options import INPUT, Output, code_version
+from springblock.cli.options import INPUT, PAGE, TABLE, code_version
 from springblock.files import write_text
 from springblock.io.parquet import load, refuse_mixture, rows_to_table, write
 from springblock.io.records import read_records
@@ -40,8 +40,8 @@ _files = partial(click.option, type=INPUT, multiple=True)
 @_files("--correlation-length", help="Table `correlation_length`. Can be repeated.")
 @_files("--work-precision", help="Table `work_precision`. Can be repeated.")
 @click.option("--configuration", required=True, help="Digest of the study's configuration.")
-@click.option("--output", type=Output(".parquet"), required=True, help="Parquet file.")
-@click.option("--page", "text", type=Output(".md"), required=True, help="Markdown file.")
+@click.option("--output", type=TABLE, required=True, help="Parquet file.")
+@click.option("--page", "text", type=PAGE, required=True, help="Markdown file.")
 def claims(
     batches: tuple[Path, ...],
     correlation: tuple[Path, ...],

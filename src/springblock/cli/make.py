@@ -7,7 +7,7 @@ import click
 
 from springblock.accuracy.conventions import COMPARISONS, SCENES
 from springblock.beyond.question import by_scene
-from springblock.cli.options import INPUT, Output, check_type, code_version
+from springblock.cli.options import ANY, INPUT, Output, check_type, code_version
 from springblock.files import write_text
 from springblock.io.parquet import load, origin_of, read, rows_to_table, write
 from springblock.io.records import read_records
@@ -34,9 +34,7 @@ INPUTS = {
 @click.argument("name", type=click.Choice(list(INPUTS)), metavar="NAME")
 @click.argument("inputs", type=INPUT, nargs=-1)
 @click.option("--configuration", help="Digest of the configuration, for `collect`.")
-@click.option(
-    "--output", type=Output(), required=True, help="Parquet file, or Markdown for a page."
-)
+@click.option("--output", type=ANY, required=True, help="Parquet file, or Markdown for a page.")
 def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output: Path) -> None:
     """Make the table or page NAME.
 

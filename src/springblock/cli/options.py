@@ -13,6 +13,7 @@ from springblock import provenance
 from springblock.files import check_output
 from springblock.model.blockmap import BlockMap
 from springblock.model.direction import normalised
+from springblock.model.numbers import check_once
 from springblock.model.scene import EDGES, Scene, Varied, in_order
 
 
@@ -43,7 +44,8 @@ class Output(click.Path):
 
 #: An option whose help shows its default.
 defaulted = partial(click.option, show_default=True)
-PICTURE = Output(".pdf", ".png", ".svg")
+ANY, PAGE, TABLE = Output(), Output(".md"), Output(".parquet")
+PICTURE, FILM = Output(".pdf", ".png", ".svg"), Output(".gif", ".mp4")
 INPUT = click.Path(exists=True, dir_okay=False, path_type=Path)
 
 
@@ -61,13 +63,9 @@ def given(read: Callable[[Any], Any]) -> Callable[..., Any]:
 
 def by_name(pairs: tuple[str, ...]) -> dict[str, str]:
     """Return the texts of NAME=TEXT, each name once."""
-    found: dict[str, str] = {}
-    for pair in pairs:
-        name, _, text = pair.partition("=")
-        if name in found:
-            raise ValueError(f"{name} is given twice, as {found[name]} and {text}; give it once")
-        found[name] = text
-    return found
+    parts = [pair.partition("=") for pair in pairs]
+    check_once("NAME=VALUE", (name for name, _, _ in parts))
+    return {name: text for name, _, text in parts}
 
 
 def name_value_pairs(pairs: tuple[str, ...]) -> Varied:

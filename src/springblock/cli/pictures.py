@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 from matplotlib.figure import Figure
 
-from springblock.cli.options import INPUT, PICTURE, Output, scene_options
+from springblock.cli.options import FILM, INPUT, PICTURE, scene_options
 from springblock.io.fields import read_fields
 from springblock.io.parquet import read as read_tables
 from springblock.io.records import Record, read
@@ -92,9 +92,7 @@ def plot(
 @click.command("animate")
 @click.argument("run", type=INPUT)
 @_SEED
-@click.option(
-    "--output", type=Output(".gif", ".mp4"), required=True, help="GIF or MP4 file (7.5 s)."
-)
+@click.option("--output", type=FILM, required=True, help="GIF or MP4 file (7.5 s).")
 def animate(run: Path, seed: int | None, output: Path) -> None:
     """Film one run of a file: detaching blocks and force curve."""
     film.animate(_chosen(run, seed), output)

@@ -9,7 +9,7 @@ import numpy as np
 
 from springblock.accuracy.conventions import suspects
 from springblock.analysis.correlation import Correlation, Length, groove_times, side_times
-from springblock.cli.options import INPUT, Output, code_version
+from springblock.cli.options import INPUT, TABLE, code_version
 from springblock.io.parquet import load, origin_of, read, rows_to_table, write
 from springblock.io.records import Record, read_records
 from springblock.io.rows import Row, limits
@@ -21,7 +21,7 @@ from springblock.model.scene import COLUMNS
 @click.argument("batches", type=INPUT, nargs=-1, required=True)
 @click.option("--configuration", required=True, help="Digest of the study's configuration.")
 @click.option("--realisations", type=int, help="Expected number of realisations.")
-@click.option("--output", type=Output(".parquet"), required=True, help="Parquet file.")
+@click.option("--output", type=TABLE, required=True, help="Parquet file.")
 def aggregate(
     batches: tuple[Path, ...], configuration: str, realisations: int | None, output: Path
 ) -> None:
@@ -39,12 +39,8 @@ def aggregate(
 
 @click.command("correlation")
 @click.argument("batches", type=INPUT, nargs=-1, required=True)
-@click.option(
-    "--output-correlation", type=Output(".parquet"), required=True, help="Parquet file of c(r)."
-)
-@click.option(
-    "--output-length", type=Output(".parquet"), required=True, help="Parquet file of l_c."
-)
+@click.option("--output-correlation", type=TABLE, required=True, help="Parquet file of c(r).")
+@click.option("--output-length", type=TABLE, required=True, help="Parquet file of l_c.")
 def correlation(batches: tuple[Path, ...], output_correlation: Path, output_length: Path) -> None:
     """Correlate detachment times along the sides of pillars.
 

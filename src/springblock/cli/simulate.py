@@ -16,6 +16,7 @@ from tqdm.contrib.logging import logging_redirect_tqdm
 
 from springblock.cli.options import (
     INPUT,
+    TABLE,
     Output,
     code_version,
     defaulted,
@@ -176,7 +177,7 @@ def loaded(scene: Scene, setup: Setup, cores: int = 1) -> Prelude:
     help="Minutes between checkpoints. After an interruption the same command continues from the "
     "file OUTPUT.checkpoint, which is removed at the end. One seed.",
 )
-@click.option("--output", type=Output(".parquet"), required=True, help="Parquet file.")
+@click.option("--output", type=TABLE, required=True, help="Parquet file.")
 def simulate_batch(
     scene: Scene,
     setup: Setup,

@@ -10,7 +10,7 @@ import pyarrow.parquet as pq
 
 from springblock.analysis.ensembles import OBSERVABLES, changes, ensembles, telling
 from springblock.analysis.statistics import Interval
-from springblock.cli.options import INPUT, Output, defaulted, print_columns
+from springblock.cli.options import INPUT, PAGE, Output, defaulted, print_columns
 from springblock.files import whole_file, write_text
 from springblock.io.parquet import load, origin_of
 from springblock.io.rows import Row, limits
@@ -161,7 +161,7 @@ def info(file: Path) -> None:
 
 
 @click.command("dictionary")
-@click.option("--output", type=Output(".md"), required=True, help="Markdown file.")
+@click.option("--output", type=PAGE, required=True, help="Markdown file.")
 def dictionary(output: Path) -> None:
     """Write the columns of all tables with units and meanings."""
     write_text(output, page())

@@ -63,31 +63,24 @@ class Cut:
         if not self.spacing > 0.0:
             raise ValueError(f"spacing must be positive, not {self.spacing!r}")
         heights = self._heights()
-        level = self._level(heights) if self.height is None else self.height
+        level, number = self.height, round((self.bearing_area or 0.0) * heights.size)
+        if level is None:
+            highest = np.sort(heights[np.isfinite(heights)])[::-1]
+            level = highest[min(max(number, 1), highest.size) - 1]
         contact = heights >= level  # False for NaN
+        if self.bearing_area is not None and contact.sum() != number:
+            possible = [np.count_nonzero(heights > level), contact.sum()]
+            nearest = " or ".join(f"{n / heights.size:.8g}" for n in possible if n)
+            raise ValueError(
+                f"{self.topography}: no height puts a share of {self.bearing_area!r} of the blocks "
+                f"in contact; choose the bearing area {nearest}, or a height"
+            )
         if not contact.any():
             raise ValueError(
                 f"{self.topography}: height = {level!r} m is above the highest block, "
                 f"{np.nanmax(heights):.4g} m"
             )
         return contact
-
-    def _level(self, heights: Array) -> float:
-        """Height, m, of the lowest block in contact at the given share of blocks in contact.
-
-        Where blocks are equally high or have no height, no level may give this share.
-        """
-        highest = np.sort(heights[np.isfinite(heights)])[::-1]
-        number = round(float(self.bearing_area or 0.0) * heights.size)
-        level = highest[min(max(number, 1), highest.size) - 1]
-        above, reached = np.count_nonzero(highest > level), np.count_nonzero(highest >= level)
-        if reached != number:
-            nearest = " or ".join(f"{n / heights.size:.8g}" for n in (above, reached) if n)
-            raise ValueError(
-                f"{self.topography}: no height puts a share of {self.bearing_area!r} of the blocks "
-                f"in contact; choose the bearing area {nearest}, or a height"
-            )
-        return float(level)
 
     @property
     def name(self) -> str:

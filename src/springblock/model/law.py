@@ -12,6 +12,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from springblock.model.numbers import check_once
+
 #: Arguments that `friction` and `update` may have besides constants and state variables.
 _OF_FRICTION = ("mu_static", "mu_dynamic", "speed")
 _OF_UPDATE = ("speed", "step")
@@ -179,15 +181,12 @@ class LawFile:
 
     def _check_repetition(self) -> None:
         """Refuse names that the file defines twice, of which Python would keep the last."""
-        for node in ast.walk(ast.parse(self.source)):
-            names: list[Any] = []
-            if isinstance(node, ast.Dict):
-                names = [key.value for key in node.keys if isinstance(key, ast.Constant)]
-            elif isinstance(node, ast.Module):
-                names = [part.name for part in node.body if isinstance(part, ast.FunctionDef)]
-            for name in names:
-                if names.count(name) > 1:
-                    raise ValueError(f"{self.file}: {name!r} is defined twice; remove one")
+        whole = ast.parse(self.source)
+        functions = (part.name for part in whole.body if isinstance(part, ast.FunctionDef))
+        check_once(str(self.file), functions)
+        for node in ast.walk(whole):
+            keys = node.keys if isinstance(node, ast.Dict) else []
+            check_once(str(self.file), (k.value for k in keys if isinstance(k, ast.Constant)))
 
     def check(self, mu_static: float, mu_dynamic: float, step: float) -> None:
         """Refuse a law that fails with the mean coefficients at one of several speeds."""

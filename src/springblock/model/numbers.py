@@ -1,6 +1,8 @@
-"""Arrays of numbers, and checks of numbers given by users."""
+"""Arrays of numbers, and checks of numbers and names given by users."""
 
 import math
+from collections import Counter
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -11,15 +13,19 @@ Array = NDArray[np.float64]
 REAL = int | float | np.integer | np.floating
 
 
-def as_array(name: str, values: Any) -> np.ma.MaskedArray[Any, Any]:
-    """Return values with their mask, if any; refuse those whose meaning an array would lose."""
-    for more in ("unit", "units", "dims"):  # of pint, astropy and xarray
-        if hasattr(values, more):
-            raise TypeError(
-                f"{name} must be a plain array, without {more} = {getattr(values, more)}"
-            )
-    array: np.ma.MaskedArray[Any, Any] = np.ma.array(values)
-    return array
+def as_array(name: str, values: Any) -> Any:
+    """Return values as a masked array; refuse those whose unit or dimensions it would lose."""
+    more = {"unit", "units", "dims"}.intersection(dir(values))  # of astropy, pint and xarray
+    if more:
+        raise TypeError(f"{name} must be a plain array, without {more.pop()}")
+    return np.ma.array(values)
+
+
+def check_once(what: str, names: Iterable[Any]) -> None:
+    """Refuse names of which one occurs twice, since the last would silently count."""
+    for name, times in Counter(names).items():
+        if times > 1:
+            raise ValueError(f"{what}: {name!r} is given twice; remove one")
 
 
 def check_whole(name: str, value: Any, least: int = 1) -> int:

@@ -106,15 +106,13 @@ class Setup:
             return self.sample_interval
         if self.longest_interval >= SAMPLE_INTERVAL:
             return SAMPLE_INTERVAL
-        return self.step * max(1, math.floor(self.longest_interval / self.step))
+        return self.step * max(1.0, self.longest_interval // self.step)
 
     @property
     def longest_interval(self) -> float:
         """Longest time between samples, s, at which static friction is about 0.1 % too low."""
         loading = self.loading_time(np.ones((1, 1), bool), self.material.mu_static)
-        return (
-            loading / _LEAST_SAMPLES or math.inf
-        )  # without thresholds there is no static friction
+        return loading / _LEAST_SAMPLES or math.inf  # if nothing has to be loaded
 
     @property
     def every(self) -> int:

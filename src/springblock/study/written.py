@@ -1,31 +1,40 @@
 """Check of a configuration file as it is written, before YAML drops or converts parts of it."""
 
 import re
-from collections import Counter
 from pathlib import Path
 
 import yaml
+
+from springblock.model.numbers import check_once
 
 #: PyYAML's reader in C is ten times as fast, where it is installed.
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 #: A decimal number. Others of YAML are easily meant as something else: 010 is 8, and 1:30 is 90.
 NUMBER = re.compile(r"[-+]?(?!0[0-9])([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?")
-#: What values may be, by the ends of YAML's tags; keys may also be merge keys, <<.
-_KINDS = ("str", "int", "float", "bool", "null", "merge", "seq", "map")
-_MOST = 10**6  #: largest number of values, with those that aliases repeat
+#: What values may be, by the ends of YAML's tags.
+_KINDS = ("str", "int", "float", "bool", "null", "seq", "map")
+_MOST = 10**5  #: largest number of values, with those that aliases repeat
 
 
 def check_file(file: Path) -> None:
     """Refuse repeated keys, numbers and dates of YAML's own, and aliases without end."""
     try:
         with file.open(encoding="utf-8") as text:
-            _size(yaml.compose(text, LOADER), "it", {})
+            left = [("", yaml.compose(text, LOADER))]
+        for _ in range(_MOST):
+            if not left:
+                return
+            left += _parts(*left.pop())
     except (ValueError, yaml.YAMLError) as error:
         raise ValueError(f"{file}: {' '.join(str(error).split())}") from None
+    key = left[-1][0].partition(".")[0]
+    raise ValueError(
+        f"{file}: {key} has more than {_MOST} values; no alias may repeat its own part"
+    )
 
 
-def _size(node: yaml.Node, key: str, sizes: dict[int, int]) -> int:
-    """Check a node, and return the number of its values; `sizes` has those of earlier nodes."""
+def _parts(key: str, node: yaml.Node) -> list[tuple[str, yaml.Node]]:
+    """Check a value, and return the values in it, each with its key."""
     kind = node.tag.rpartition(":")[2]
     if kind not in _KINDS or (kind in ("int", "float") and not NUMBER.fullmatch(node.value)):
         text = node.value if isinstance(node, yaml.ScalarNode) else "a collection"
@@ -35,24 +44,8 @@ def _size(node: yaml.Node, key: str, sizes: dict[int, int]) -> int:
             "in quotes"
         )
     if isinstance(node, yaml.ScalarNode):
-        return 1
-    if id(node) not in sizes:
-        sizes[id(node)] = 0  # until it is known
-        sizes[id(node)] = 1 + sum(_size(part, name, sizes) for name, part in _parts(node, key))
-    if not 0 < sizes[id(node)] <= _MOST:
-        raise ValueError(f"{key} contains itself, or has more than {_MOST} values with its aliases")
-    return sizes[id(node)]
-
-
-def _parts(node: yaml.CollectionNode, key: str) -> list[tuple[str, yaml.Node]]:
-    """Return the values of a node with their keys, each key once."""
+        return []
     if isinstance(node, yaml.SequenceNode):
-        return [(f"{key}.{i}", part) for i, part in enumerate(node.value)]
-    names = [str(name.value) for name, _ in node.value]
-    (name, times), *_ = Counter(names).most_common(1) or [("", 0)]
-    if times > 1:
-        raise ValueError(f"{key} has the key {name!r} twice; remove one, or rename it")
-    return [
-        (f"{key}.{name}".removeprefix("it."), part)
-        for name, (_, part) in zip(names, node.value, strict=True)
-    ]
+        return [(key, part) for part in node.value]
+    check_once(key or "the configuration", (str(name.value) for name, _ in node.value))
+    return [(f"{key}.{name.value}".removeprefix("."), part) for name, part in node.value]
