@@ -56,7 +56,8 @@ def write_fields(fields: Fields, path: str | Path, **attributes: object) -> None
     """
     from scipy.io import netcdf_file  # slow to load
 
-    check_name(Path(path))
+    if Path(path).suffix != ".nc":
+        raise ValueError(f"fields are written to a file of type .nc, not to {path}")
     if not len(fields.time):
         raise ValueError("there are no fields to write: the run was given no snapshot_times")
     columns = _columns(fields)
@@ -75,12 +76,6 @@ def write_fields(fields: Fields, path: str | Path, **attributes: object) -> None
             variable[:] = columns[name]
             for key, value in _attributes(name, unit, meaning).items():
                 setattr(variable, key, value)
-
-
-def check_name(path: Path) -> None:
-    """Refuse a file whose type is not .nc."""
-    if path.suffix != ".nc":
-        raise ValueError(f"fields are written to a file of type .nc, not to {path}")
 
 
 def _columns(fields: Fields) -> dict[str, NDArray[Any]]:
