@@ -7,7 +7,7 @@ from springblock.analysis.ensembles import Change, Ensemble, from_first
 
 
 def test_what_not_all_ensembles_have_is_no_parameter_that_changes():
-    """As a constant of one law where another has none: there is no lowest value."""
+    """As a constant of one law where another has none: it has one value."""
     assert list(from_first([Ensemble({}, []), Ensemble({"d_c": 1e-8}, [])])) == []
 
 

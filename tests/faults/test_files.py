@@ -210,6 +210,13 @@ def test_a_batch_with_a_seed_missing_is_not_aggregated(study, springblock, tmp_p
     assert said == "Error: 2 realisations in the batches; expected 3"
 
 
+def test_companions_that_other_systems_leave_beside_tables_are_passed_over(study, springblock):
+    (study.results / "tables/._realisations.parquet").write_bytes(b"of another system")
+    said = springblock("verify", study.results, study.results)
+    assert "tables/realisations.parquet: the same" in said
+    assert "._realisations" not in said
+
+
 def test_each_flipped_bit_of_a_batch_is_noticed(study, rng):
     """Also in the footer, which Parquet's own checksums leave out."""
     file = study.results / BATCH

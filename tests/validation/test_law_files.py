@@ -171,6 +171,8 @@ FRICTION = "def friction(mu_dynamic):\n    return mu_dynamic\n"
             "CONSTANTS = {'gamma': (1.0, '')}\n" + FRICTION,
             "'gamma' is a constant of the material",
         ),
+        (FRICTION + FRICTION, "cannot be run: friction is defined twice; remove one"),
+        ("CONSTANTS = {'a': (1.0, ''), 'a': (2.0, '')}\n" + FRICTION, "'a' is defined twice"),
         ("STATE = ['s']\n" + FRICTION, "STATE must be a dictionary"),
         ("STATE = {'s': 'a'}\n" + FRICTION, r"STATE\['s'\] must be a number or the name of"),
         ("STATE = {'s': 0.0}\n" + FRICTION, "must define the function update"),
@@ -205,6 +207,15 @@ def test_a_file_that_is_no_law_is_refused_in_one_sentence(text, sentence, tmp_pa
 def test_a_law_is_read_in_its_own_encoding(tmp_path, content):
     (tmp_path / "law.py").write_bytes(content)
     Setup(Material(law=tmp_path / "law.py"))
+
+
+@pytest.mark.parametrize("declared", ["utf-8", "no-such-encoding", "hex"])
+def test_a_law_in_another_encoding_than_it_declares_is_refused(tmp_path, declared):
+    file = tmp_path / "law.py"
+    file.write_bytes(f"# coding: {declared}\n# Größe\n{FRICTION}".encode("latin-1"))
+    with pytest.raises(ValueError, match=r"law.py cannot be read: ") as refused:
+        LawFile.read(file)
+    assert "\n" not in str(refused.value)
 
 
 def test_what_is_no_file_of_text_or_no_number_is_refused(tmp_path):

@@ -1,6 +1,7 @@
 """Ensembles in tables of realisations: their means, and changes between two tables."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -120,16 +121,16 @@ def constants(members: Sequence[Ensemble]) -> dict[str, object]:
 def from_first(members: Sequence[Ensemble]) -> Iterator[tuple[str, object, object, Change]]:
     """Yield the changes from the first value of each name that differs to each of the others.
 
-    Each with the name and both values; names that not every ensemble has are left out.
+    Each with the name and both values, among the ensembles that have this name.
     """
     for name in telling(each.names for each in members):
-        if all(name in each.names for each in members):
-            values = {each.names[name] for each in members}
-            first, *others = sorted(values, key=lambda value: _order(name, value))
-            for other in others:
-                pair = ([m for m in members if m.names[name] == end] for end in (first, other))
-                for change in changes(*pair)[1]:
-                    yield name, first, other, change
+        having = [each for each in members if name in each.names]
+        values = {each.names[name] for each in having}
+        first, *others = sorted(values, key=partial(_order, name))
+        for other in others:
+            pair = ([each for each in having if each.names[name] == end] for end in (first, other))
+            for change in changes(*pair)[1]:
+                yield name, first, other, change
 
 
 def changes(

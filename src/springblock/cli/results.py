@@ -63,7 +63,7 @@ def _is_sound(results: Path, other: Path | None) -> bool:
     click.echo("\n".join(found or [complete]))
     same = []
     if other is not None:
-        files = (file for each in (results, other) for file in each.glob("tables/*.parquet"))
+        files = (file for each in (results, other) for file in each.glob("tables/[!.]*.parquet"))
         for name in sorted({f"tables/{file.name}" for file in files}):
             same.append(_are_the_same(name, results / name, other / name))
     return not found and all(same)

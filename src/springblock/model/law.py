@@ -63,7 +63,7 @@ class LawFile:
                 source = text.read()
         except FileNotFoundError:
             raise ValueError(f"{file} does not exist") from None
-        except (OSError, SyntaxError, UnicodeDecodeError) as error:
+        except (LookupError, OSError, SyntaxError, UnicodeDecodeError) as error:
             raise ValueError(f"{file} cannot be read: {error}") from None
         stem = re.sub(r"[^\w.-]", "_", file.stem)
         law = cls(stem, file=file, source=source)
@@ -113,7 +113,7 @@ class LawFile:
         module: dict[str, Any] = {}
         try:
             program = ast.parse(self.source)
-            if not (reason := _foreign(program) or _endless(program)):
+            if not (reason := _foreign(program) or _twice(program) or _endless(program)):
                 exec(compile(program, str(self.file), "exec"), module)
         except (Exception, SystemExit) as error:
             reason = repr(error)
@@ -231,6 +231,17 @@ def _foreign(program: ast.Module) -> str | None:
         if name.partition(".")[0] not in _IMPORTED | sys.stdlib_module_names - {"importlib"}:
             packages = ", ".join(sorted(_IMPORTED))
             return f"it uses {name}; import only the standard library and {packages}"
+    return None
+
+
+def _twice(program: ast.Module) -> str | None:
+    """Return a name that is defined twice, of which Python would keep the last definition."""
+    functions = [part.name for part in program.body if isinstance(part, ast.FunctionDef)]
+    tables = [node for node in ast.walk(program) if isinstance(node, ast.Dict)]
+    keys = [[ast.unparse(key) for key in table.keys if key] for table in tables]
+    for names in (functions, *keys):
+        if len(set(names)) < len(names):
+            return f"{max(names, key=names.count)} is defined twice; remove one"
     return None
 
 
