@@ -79,7 +79,8 @@ def references(size: int) -> NDArray[np.intp]:
 
     With the one or two middle blocks only, as in the paper, a surface with a single pillar
     (n_p = 60) would need about four times as many realisations for the same interval. On pillars of
-    20 and 60 blocks both choices agree within their intervals.
+    20 and 60 blocks both choices agree within their intervals; with a wider range, the decay length
+    would change (docs/model.md).
     """
     from_middle = np.abs(np.arange(size) - (size - 1) / 2.0)
     return np.flatnonzero(from_middle <= max(0.1 * size, 0.5))
