@@ -124,7 +124,8 @@ class Study:
 
     def command(self, *options: str, configuration: tuple[str, ...] = ("tiny.yaml",)) -> list[str]:
         """Return the words that run Snakemake."""
-        snakemake = [sys.executable, "-m", "snakemake", "--configfile", *configuration]
+        at_once = ["--max-jobs-per-timespan", "100/1s"]  # so that it ends without a wait
+        snakemake = [sys.executable, "-m", "snakemake", *at_once, "--configfile", *configuration]
         return [*snakemake, *self.options, *options]
 
     def start(

@@ -29,14 +29,16 @@ def study(tmp_path):
     return Study.begun(tmp_path)
 
 
-def test_profiles_differ_in_cores_and_know_the_groups_of_the_rules():
+def test_profiles_differ_in_cores_and_group_jobs_of_rules_that_exist():
     default, slurm = (
         yaml.safe_load((ROOT / f"profiles/{name}/config.yaml").read_text())
         for name in ("default", "slurm")
     )
     assert {key for key in default if slurm.get(key) != default[key]} == {"cores", "quiet"}
-    sizes = {entry.partition("=")[0] for entry in slurm["group-components"]}
-    assert sizes == set(re.findall(r'group:\s+"(\w+)"', RULES))
+    groups = dict(entry.split("=") for entry in slurm["groups"])
+    assert set(groups.values()) == {entry.partition("=")[0] for entry in slurm["group-components"]}
+    assert set(groups) <= set(re.findall(r"^ *rule (\w+):", RULES, re.MULTILINE))
+    assert not re.search(r'\bgroup:\s+"', RULES)  # or dry runs would take a quarter longer
 
 
 def test_a_run_does_not_start_beside_jobs_of_a_killed_one(study):

@@ -28,8 +28,6 @@ if WITH_SIDES:
             f"{RESULTS}/logs/{{scene}}/correlation.log",
         benchmark:
             f"{RESULTS}/benchmarks/{{scene}}/correlation.tsv"
-        group:
-            "correlations"
         resources:
             mem_mb=2000,
             runtime=5,

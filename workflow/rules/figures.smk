@@ -15,8 +15,6 @@ for figure in [*FIGURES, *SWEEPS]:
             f"{RESULTS}/logs/{figure}.log",
         benchmark:
             f"{RESULTS}/benchmarks/{figure}.tsv"
-        group:
-            "figures"
         resources:
             mem_mb=3000,
             runtime=5,

@@ -85,8 +85,6 @@ rule prelude:
         f"{RESULTS}/logs/{{scene}}/prelude.log",
     benchmark:
         f"{RESULTS}/benchmarks/{{scene}}/prelude.tsv"
-    group:
-        "preludes"
     resources:
         mem_mb=memory,
         runtime=minutes,
@@ -115,8 +113,6 @@ rule simulate_batch:
         f"{RESULTS}/benchmarks/{{scene}}/batch-{{batch}}.tsv"
     wildcard_constraints:
         batch=r"\d+",
-    group:
-        "batches"
     resources:
         mem_mb=memory,
         runtime=minutes,
