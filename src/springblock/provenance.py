@@ -45,6 +45,11 @@ def digest(step: str) -> str:
     return _short("".join(_of_folder(folder, step in _WRITING) for folder in STEPS[step]))
 
 
+def digest_of(file: Path) -> str:
+    """Return the digest of one module, likewise."""
+    return _short("\n".join(_skeleton(ast.parse(file.read_bytes()), docstrings=False)))
+
+
 def code_version(step: str) -> str:
     """Return the package's version with the digest of a step, as 1.0.0+1234567890abcdef."""
     return f"{version('springblock')}+{digest(step)}"
