@@ -43,10 +43,15 @@ rule all:
         rules.figures.input,
         FILMED,
         rules.report.output,
-        [rules.precision_table.input, rules.accuracy.input, rules.accuracy.output]
+        [
+            rules.precision_table.input,
+            rules.production_table.input,
+            rules.accuracy.input,
+            rules.accuracy.output,
+        ]
         if config["accuracy"]
         else [],
-        rules.production_table.input if config["production"] else [],
+        rules.reference_solutions.output if config["accuracy"] and config["verification"] else [],
         [PARTS, rules.mechanism.input, rules.mechanism.output] if config["mechanism"] else [],
         rules.beyond.output if GROUPS_BEYOND else [],
     localrule: True

@@ -1,59 +1,20 @@
-"""Biases of ensembles, and the best step for a budget, against closed forms."""
+"""Biases of ensembles against closed forms."""
 
-from math import inf
 from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
 
-from springblock.accuracy.budget import (
-    STUDY_SEEDS,
-    Bias,
-    excess,
-    finest_bias,
-    spent,
-    total_error,
-)
+from springblock.accuracy.budget import STUDY_SEEDS, Bias, finest_bias
 from springblock.accuracy.conventions import DELAY, LENGTH
-from springblock.model.defaults import STEP
 
 CONFIG = Path(__file__).parents[2] / "config/config.yaml"
-CURVATURE, DEVIATION, COST = 2e12, 5e-3, 1.6e-8  #: bias/h² in 1/s², of a run, CPU time x h in s²
 
 
 def row(bias, error=0.0, scale=1.0, **columns):
     ends = {"ci_low": bias - 2.0 * error, "ci_high": bias + 2.0 * error}
     return {"bias": bias, "bias_error": error, "scale": scale, **ends, **columns}
-
-
-def second_order(step, prelude=0.0):
-    """A step whose bias falls with its square, and whose cost rises with its inverse."""
-    costs = {"cpu_seconds": COST / step, "prelude_seconds": prelude}
-    return row(CURVATURE * step**2, step=step, deviation=DEVIATION, quantity=LENGTH, **costs)
-
-
-@pytest.mark.parametrize("seconds", [2.0, 20.0, 2000.0])
-def test_at_the_best_step_the_bias_is_half_the_standard_error(seconds):
-    """dE²/dh = 4 c² h³ - σ² a/(B h²) = 0, so that E = √5 c h²."""
-    best = (DEVIATION**2 * COST / (4.0 * CURVATURE**2 * seconds)) ** 0.2
-    errors = [
-        total_error(second_order(step), seconds) for step in np.array([0.99, 1.0, 1.01]) * best
-    ]
-    assert errors[1] == min(errors) == pytest.approx(5.0**0.5 * CURVATURE * best**2)
-
-
-def test_a_prelude_is_paid_once_and_a_realisation_at_least():
-    alone, started = second_order(STEP), second_order(STEP, prelude=3.0)
-    assert total_error(started, 23.0) == pytest.approx(total_error(alone, 20.0))
-    assert total_error(started, 0.9 * spent(started, 1.0)) == inf
-
-
-def test_errors_are_compared_for_the_cpu_time_of_the_study_at_the_default_step():
-    rows = [second_order(step, prelude=1.0) for step in (STEP / 2.0, STEP, 2.0 * STEP)]
-    seconds = 1.0 + 3.0 * STUDY_SEEDS[LENGTH] * COST / STEP
-    errors = [total_error(each, seconds) for each in rows]
-    assert list(excess(rows, fold=3.0).values()) == pytest.approx(np.divide(errors, min(errors)))
 
 
 def test_a_bias_is_freed_of_its_own_scatter(rng):

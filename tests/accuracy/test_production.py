@@ -9,6 +9,7 @@ from springblock.accuracy import production, work_precision
 from springblock.accuracy.conventions import DELAY, LENGTH, SCENES
 from springblock.accuracy.production import SCHEMA, STEPS, of_length, of_mean, production_rows
 from springblock.io.parquet import rows_to_table
+from springblock.io.rows import select
 from springblock.model.defaults import STEP
 from springblock.model.scene import Scene
 
@@ -20,8 +21,7 @@ def rows():
     """Rows of pillars so small that each run takes milliseconds."""
     with pytest.MonkeyPatch.context() as changed:
         changed.setitem(production.PATTERNS, "pillared", Pattern.pillars(12, 9, 3))
-        changed.setitem(production.SEEDS, "pillared", SEEDS)
-        return list(production_rows("pillared"))
+        return list(production_rows("pillared", SEEDS, min(STEPS)))
 
 
 def test_the_bias_of_a_mean_is_what_was_added(rng):
@@ -68,14 +68,26 @@ def test_rows_hold_what_simulate_yields(rows):
 
 def test_an_ensemble_has_no_bias_from_itself(monkeypatch):
     """Nor the mean of its scatter, but for rounding."""
-    few = work_precision._SURFACES["flat"]._replace(ensemble=Pattern.flat(4), seeds=3)
-    monkeypatch.setitem(work_precision._SURFACES, "flat", few)
-    monkeypatch.setattr(work_precision, "PAIRED_STEPS", {"leapfrog": [work_precision.FINE_STEP]})
+    monkeypatch.setitem(work_precision.ENSEMBLES, "flat", (Pattern.flat(4), 3))
+    monkeypatch.setattr(work_precision, "PAPER_STEP", work_precision.FINE_STEP)
     monkeypatch.setattr(work_precision, "PAIRED_SEEDS", {"leapfrog": 2})  # of these three
-    *paired, scatter, _, _ = work_precision.paired_rows("flat")
-    assert [row["error"] for row in paired] == 3 * [0.0]
+    paired = [*work_precision.paired_rows("flat")]
+    scatter = select(paired, comparison="scatter", quantity="static_friction")[0]
+    of_itself = select(paired, comparison="paired", integrator="leapfrog")
+    assert [row["error"] for row in of_itself] == 3 * [0.0]
     assert scatter["error"] == pytest.approx(0.0, abs=1e-15)
     assert scatter["ci_low"] < 0.0 < scatter["ci_high"]
+
+
+def test_coarser_steps_are_compared_with_the_finest_that_is_asked_for(monkeypatch):
+    """With the same seeds, whose number is asked for, too."""
+    monkeypatch.setitem(production.PATTERNS, "flat", Pattern.flat(4))
+    rows = [*production_rows("flat", 3, 1e-8)]
+    assert {row["step"] for row in rows} == {8e-8, 4e-8, 2e-8, 1e-8}
+    assert all((row["bias"] == 0.0) == (row["step"] == 1e-8) for row in rows[:4])
+    assert {row["realisations"] for row in rows} == {3}
+    with pytest.raises(ValueError, match=r"^the finest step must be 1e-08 or 5e-09 s, not 2e-08$"):
+        next(production_rows("flat", 3, STEP))
 
 
 def test_scenes_are_those_of_the_study_and_steps_divide_the_sample_interval():

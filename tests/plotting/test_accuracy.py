@@ -11,15 +11,15 @@ from precision import production_rows
 from springblock import Setup
 from springblock.accuracy.conventions import (
     ENSEMBLE,
+    MEANS,
     PAPER_STEP,
     PLAIN,
     SCENES,
-    half_width,
 )
+from springblock.model.defaults import STEP
 from springblock.plotting import drawing
 
 STEPS = np.array([8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9])
-SEEDS = 4 * ENSEMBLE  #: of the ensembles
 
 
 def row(comparison, scene, integrator, step, nudge, quantity, error, half=0.0):
@@ -27,7 +27,7 @@ def row(comparison, scene, integrator, step, nudge, quantity, error, half=0.0):
     return {
         "comparison": comparison,
         "scene": scene,
-        "n_blocks": 16 if comparison in ("paired", "scatter") else 8,
+        "n_blocks": 8,
         "integrator": integrator,
         "step": step,
         "nudge": nudge,
@@ -36,7 +36,7 @@ def row(comparison, scene, integrator, step, nudge, quantity, error, half=0.0):
         "ci_low": error - half,
         "ci_high": error + half,
         "worst": 2.0 * error,
-        "realisations": SEEDS,
+        "realisations": 4,
         "cpu_seconds": 3e-6 * evaluations,
         "force_evaluations": evaluations,
     }
@@ -52,11 +52,6 @@ def table():
                 rows.append(row("reference", scene, integrator, h, 0.0, quantity, 3e3 * i * h))
             for h in STEPS[:-1]:
                 rows.append(row("reference", scene, PLAIN, h, 0.0, quantity, 0.02 * i))
-        for quantity in ("static_friction", "t_max", "t_avg"):
-            rows.append(row("scatter", scene, "leapfrog", 2.5e-9, 0.0, quantity, 0.0, 4e-3 * i))
-            for h, integrator in product(STEPS[:3], ("leapfrog", "rk4")):
-                bias = row("paired", scene, integrator, h, 0.0, quantity, -3e4 * i * h, 5e-4)
-                rows.append(bias)
     return pd.DataFrame(rows).sample(frac=1.0, random_state=1)
 
 
@@ -67,8 +62,7 @@ def production_table():
 
 
 DRAWINGS = {
-    "work_precision": lambda: drawing("work_precision")(table()),
-    "work_precision at full size": lambda: drawing("work_precision")(table(), production_table()),
+    "work_precision": lambda: drawing("work_precision")(table(), production_table()),
 }
 drawn = cache(lambda name: DRAWINGS[name]())  # for tests that only look at it
 
@@ -124,27 +118,26 @@ def test_rings_mark_the_default_and_the_paper():
 
 
 @pytest.mark.parametrize(("letter", "scene"), list(zip("def", SCENES, strict=True)))
-def test_every_bias_is_shown_with_its_interval_and_the_scatter(letter, scene):
+def test_biases_are_shown_over_seconds_in_standard_errors_of_the_usual_mean(letter, scene):
+    """Of all quantities and of steps up to twice the default, which has a ring."""
     ax = panel(letter)
-    of_scene = chosen(table(), scene=scene, quantity="static_friction")
-    wanted = chosen(of_scene, comparison="paired")
-    assert sorted(points(ax)[:, 1]) == pytest.approx(sorted(100.0 * wanted.error))
+    rows = production_table()
+    rows = rows[(rows.step <= 4e-8) & rows.quantity.isin(MEANS)]
+    shown = chosen(rows, scene=scene)
+    errors = ENSEMBLE**0.5 / 10.0  # of a deviation of 10
+    drawn_points = np.vstack([bars.lines[0].get_xydata() for bars in ax.containers])
+    assert len(drawn_points) == len(shown) == 3 * 4
+    assert sorted(drawn_points[:, 1]) == pytest.approx(sorted(errors * shown.bias))
+    assert drawn_points[:, 0].min() == pytest.approx(shown.cpu_seconds.min(), rel=0.1)
+    assert drawn_points[:, 0].max() == pytest.approx(shown.cpu_seconds.max(), rel=0.1)
     bars = np.vstack([b for c in ax.collections for b in c.get_segments()])
-    ends = sorted(100.0 * pd.concat([wanted.ci_low, wanted.ci_high]))
+    ends = sorted(errors * pd.concat([shown.ci_low, shown.ci_high]))
     assert sorted(bars[:, 1]) == pytest.approx(ends)
     assert visible(ax, bars)
-    scatter = chosen(of_scene, comparison="scatter").ci_high.item()
     (band,) = ax.patches
-    assert band.get_y() == pytest.approx(-100.0 * scatter * 2.0)  # 20 seeds instead of 80
-    assert band.get_height() == pytest.approx(100.0 * scatter * 4.0)
-
-
-@pytest.mark.parametrize(("letter", "scene"), list(zip("def", SCENES, strict=True)))
-def test_biases_at_full_size_are_shown_where_a_study_has_them(letter, scene):
-    ax = panel(letter, "work_precision at full size")
-    shown = chosen(production_table(), scene=scene, quantity="static_friction").sort_values("step")
-    (full,) = (bars for bars in ax.containers if bars.lines[0].get_marker() == "D")
-    assert [*full.lines[0].get_xdata()] == pytest.approx([*(1e9 * shown.step[1:])])
-    assert [*full.lines[0].get_ydata()] == pytest.approx([*(100.0 * shown.bias[1:] / 50.0)])
-    half = 100.0 * half_width(10.0 / 50.0, ENSEMBLE)
-    assert ax.patches[1].get_height() == pytest.approx(2.0 * half)
+    assert (band.get_y(), band.get_height()) == (-1.0, 2.0)
+    rings = [line for line in ax.lines if line.get_fillstyle() == "none"]
+    default = chosen(shown, step=STEP)
+    assert [ring.get_ydata().item() for ring in rings] == pytest.approx([*(errors * default.bias)])
+    names = [text.get_text() for text in ax.texts]
+    assert sorted(names) == ["10 ns", "20 ns", "40 ns", "5 ns"]

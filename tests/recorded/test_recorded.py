@@ -34,8 +34,9 @@ from mechanism import chapter
 from plotting.test_every_figure import DRAWINGS, drawn
 from springblock import Pattern, Setup, Surface
 from springblock.accuracy import production, work_precision
-from springblock.accuracy.conventions import SCENES
+from springblock.accuracy.conventions import SAMPLE_INTERVAL, SCENES
 from springblock.accuracy.page import page as errors
+from springblock.accuracy.solutions import Small
 from springblock.accuracy.stability import all_cases
 from springblock.beyond.page import QUESTIONS
 from springblock.beyond.page import page as questions
@@ -111,14 +112,14 @@ def uneven(rows: list[Row], *columns: str) -> list[Row]:
 
 
 def accuracy() -> str:
-    """The page on errors, with and without those at full size."""
+    """The page on errors."""
     single = uneven(precision.precision_rows(), "error", "ci_low", "ci_high")
     cases = [("size", "agrees"), ("size", "unstable"), ("step", "agrees"), ("damping", "refused")]
     stability = [{"family": name, "expected": word, "outcome": word} for name, word in cases]
     realisations = [{"energy_error": 1e-6 * each} for each in (-3.0, 1.0, 2.0, 700.0)]
     columns = ("value", "scale", "deviation", "bias", "bias_error", "ci_low", "ci_high")
     whole = uneven(precision.production_rows(), *columns)
-    return "\n".join(errors(single, stability, realisations, more) for more in (whole, []))
+    return errors(single, stability, realisations, whole)
 
 
 def made_up(surface: Surface, step: float, sample_interval: float, order: float) -> Any:
@@ -149,24 +150,25 @@ def errors_measured() -> str:
         order = {"leapfrog": 2.0, "rk4": 1.0}[setup.integrator]
         return made_up(surface, setup.step, setup.sample_interval, order)
 
-    def exact(surface: Surface, duration: float, sample_interval: float) -> Any:
-        return made_up(surface, 0.0, sample_interval, 1.0)
+    def exact(scene: str) -> Any:
+        surfaces = map(small.surface, range(small.seeds))
+        return [made_up(each, 0.0, SAMPLE_INTERVAL, 1.0) for each in surfaces]
 
     def plain(surface: Surface, duration: float, step: float, sample_interval: float) -> Any:
         return made_up(surface, step, sample_interval, 0.1)
 
     pattern = Pattern.pillars(12, 9, 3)
+    small = Small(pattern, 2e-4, 3)
     with pytest.MonkeyPatch.context() as changed:
         for module in (production, work_precision):
             changed.setattr(module, "simulate", simulated)
-        changed.setattr(work_precision.reference, "solve", exact)
+        changed.setattr(work_precision, "solutions", exact)
         changed.setattr(work_precision.plain_rk4, "solve", plain)
-        few = work_precision._Surfaces(pattern, 2e-4, 3, pattern, 5)
         for scene in SCENES:
             changed.setitem(production.PATTERNS, scene, pattern)
-            changed.setitem(production.SEEDS, scene, 4)
-            changed.setitem(work_precision._SURFACES, scene, few)
-        full_size = pd.DataFrame(production.production_rows("pillared"))
+            changed.setitem(work_precision.ENSEMBLES, scene, (pattern, 5))
+            changed.setitem(work_precision.SMALL, scene, small)
+        full_size = pd.DataFrame(production.production_rows("pillared", 4, 5e-9))
         small = pd.DataFrame(
             chain.from_iterable(f("pillared") for f in work_precision.ROWS.values())
         )
@@ -319,7 +321,7 @@ def printed(words: list[str]) -> Iterator[str]:
 def jobs() -> str:
     """The commands of all jobs of a tiny study."""
     with tempfile.TemporaryDirectory() as name:
-        everything = {"accuracy": True, "production": True, "mechanism": True}
+        everything = {"accuracy": True, "verification": True, "mechanism": True}
         watched = {"flat": TINY["scenes"]["flat"] | {"snapshot_times": [1e-5]}}
         scenes = TINY["scenes"] | watched
         tiny = Study.begun(Path(name) / "study", scenes=scenes, **everything)

@@ -226,11 +226,6 @@ def test_a_surface_has_one_name_in_the_whole_study(surfaces):
         check(own, SCHEMA)
 
 
-def test_errors_at_full_size_need_those_on_small_surfaces():
-    with pytest.raises(ValueError, match=r"^production: true needs accuracy: true$"):
-        check(changed("production", to=True) | {"accuracy": False}, SCHEMA)
-
-
 def test_figures_of_the_paper_are_not_drawn_from_surfaces_of_ones_own(surfaces):
     own = surfaces(mask="corner.npy")["scenes"]["own"]
     groups = {"flat": PAPER["scenes"]["flat"], "sizes": own, "surfaces": own}

@@ -23,11 +23,17 @@ rule compare_scene:
         runtime=30,
     params:
         code=code("accuracy"),
+        ensembles=lambda here: (
+            f"--seeds {config['production'][here.scene]} "
+            f"--finest-step {config['production']['finest_step']}"
+            if here.comparison == "production"
+            else ""
+        ),
     message:
         "Measuring errors: {wildcards.comparison}, {wildcards.scene}"
     shell:
         "springblock --code {params.code} make {wildcards.comparison}-{wildcards.scene} "
-        "--output {output:q} > {log:q} 2>&1"
+        "{params.ensembles} --output {output:q} > {log:q} 2>&1"
 
 
 rule precision_table:
@@ -35,7 +41,7 @@ rule precision_table:
     input:
         expand(
             rules.compare_scene.output,
-            comparison=conventions.COMPARISONS,
+            comparison=["reference", "paired"] if config["verification"] else ["reference"],
             scene=conventions.SCENES,
         ),
     output:
@@ -84,10 +90,25 @@ rule stability_table:
         runtime=10,
     params:
         code=code("accuracy"),
+        name="stability",
     message:
         "Running stiff and extreme cases"
     shell:
-        "springblock --code {params.code} make stability --output {output:q} > {log:q} 2>&1"
+        "springblock --code {params.code} make {params.name} --output {output:q} > {log:q} 2>&1"
+
+
+use rule stability_table as reference_solutions with:
+    output:
+        f"{RESULTS}/accuracy/reference.parquet",
+    log:
+        f"{RESULTS}/logs/reference_solutions.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/reference_solutions.tsv"
+    params:
+        code=code("accuracy"),
+        name="reference",
+    message:
+        "Computing the reference solutions again"
 
 
 rule accuracy:
@@ -96,7 +117,7 @@ rule accuracy:
         rules.precision_table.output,
         rules.stability_table.output,
         rules.aggregate.output,
-        rules.production_table.output if config["production"] else [],
+        rules.production_table.output,
     output:
         f"{RESULTS}/accuracy.md",
     log:

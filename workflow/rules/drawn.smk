@@ -56,8 +56,7 @@ def needed(figure):
         )
     for table, scene, number in declared.needs(SCENES, lengths):
         if scene is None:
-            if config["production"] or table != "production":
-                yield f"{RESULTS}/tables/{table}.parquet"
+            yield f"{RESULTS}/tables/{table}.parquet"
         elif table == "realisations":
             yield from batches([ENSEMBLE[scene.folder]])[:number]
         else:

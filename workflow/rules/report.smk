@@ -37,11 +37,15 @@ rule report:
         claims=[] if OWN else rules.claims.output,
         tables=[rules.aggregate.output, *rules.correlations.input],
         accuracy=(
-            [rules.accuracy.output, rules.precision_table.output, rules.stability_table.output]
+            [
+                rules.accuracy.output,
+                rules.precision_table.output,
+                rules.stability_table.output,
+                rules.production_table.output,
+            ]
             if config["accuracy"]
             else []
         ),
-        production=rules.production_table.output if config["production"] else [],
         mechanism=([rules.mechanism.output, rules.mechanism.input] if config["mechanism"] else []),
         beyond=rules.beyond.output if GROUPS_BEYOND else [],
         glossary=[] if OWN or not Path(GLOSSARY).exists() else GLOSSARY,

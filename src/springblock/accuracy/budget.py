@@ -1,17 +1,8 @@
-"""Bias of ensembles, and the best step for a given CPU time.
-
-The mean over k seeds has a bias, caused by the step, and a scatter, which falls with k. The root
-of the sum of their squares is the total error,
-
-    E² = bias² + deviation²/k,    k = (CPU time - that of the prelude)/(CPU time of a realisation).
-
-Where a bias falls with step², and the cost of a realisation with 1/step, the best step leaves a
-bias of half the standard error, and E falls with CPU time to the power 2/5.
-"""
+"""Bias of ensembles, with bounds."""
 
 from collections.abc import Iterable, Sequence
 from itertools import product
-from math import inf, sqrt
+from math import sqrt
 from typing import NamedTuple
 
 from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH, SCENES
@@ -67,27 +58,3 @@ def finest_bias(rows: Iterable[Row]) -> float:
 def largest_bias(rows: Sequence[Row]) -> float:
     """Far end of the interval of the default's bias plus the finest step's, as a share."""
     return Bias.of(at(STEP, rows)).high + finest_bias(rows)
-
-
-def spent(row: Row, seeds: float) -> float:
-    """CPU time of `seeds` realisations at the step of this row, s."""
-    return float(row["prelude_seconds"] + seeds * row["cpu_seconds"])
-
-
-def total_error(row: Row, seconds: float) -> float:
-    """Total error for a CPU time, s; infinite if it does not suffice for one realisation."""
-    seeds = (seconds - row["prelude_seconds"]) / row["cpu_seconds"]
-    scatter = row["deviation"] / row["scale"]
-    return sqrt(Bias.of(row).estimate ** 2 + scatter**2 / seeds) if seeds >= 1.0 else inf
-
-
-def excess(rows: Sequence[Row], fold: float = 1.0) -> dict[float, float]:
-    """Total error at each step over that at the best step, for one scene and quantity.
-
-    The CPU time is that of `fold` times the study's seeds at the default step. The bias of the
-    finest step, which `finest_bias` bounds, is neglected.
-    """
-    default = at(STEP, rows)
-    seconds = spent(default, fold * STUDY_SEEDS.get(default["quantity"], ENSEMBLE))
-    errors = {row["step"]: total_error(row, seconds) for row in rows}
-    return {step: error / min(errors.values()) for step, error in errors.items()}

@@ -5,7 +5,7 @@ of them with the same seeds. The bias is the mean difference of pairs, which has
 scatter from seed to seed; the scatter determines the standard error of an ensemble.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 
 import numpy as np
@@ -63,9 +63,8 @@ PATTERNS = {
     "pillared": Pattern.pillars(120, 20, 20),
     "grooved": Pattern.pillars(120, 58, 62).grooved(8, 2),
 }
-#: Number of seeds: a quarter of an hour in all; more where a realisation costs less.
-SEEDS = {"flat": 100, "pillared": 60, "grooved": 40}
 STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9)
+FINEST = STEPS[3:]  #: steps with which ensembles of the coarser ones may be compared
 #: A multiple of all steps, near the study's 2e-7 s.
 SAMPLE_INTERVAL = 1.6e-7
 QUANTITIES = (*MEANS, DELAY)  #: of every realisation
@@ -75,11 +74,17 @@ Kept = tuple[Array, ...]
 UNITS = {"static_friction": "1", LENGTH: "blocks"}  #: of quantities other than times
 
 
-def production_rows(scene: str) -> Iterator[Row]:
-    """Compare ensembles of one scene at all steps; a row per quantity and step."""
-    pattern, seeds = PATTERNS[scene], SEEDS[scene]
-    preludes, ensembles = simulate_ensembles(pattern, seeds)
-    finest = ensembles[min(STEPS)][0]
+def production_rows(scene: str, seeds: int, finest_step: float) -> Iterator[Row]:
+    """Compare ensembles of one scene at the steps down to the finest; a row per quantity and step.
+
+    The time is proportional to the seeds, and nearly doubles with each step.
+    """
+    if finest_step not in FINEST:
+        known = " or ".join(f"{step:g}" for step in FINEST)
+        raise ValueError(f"the finest step must be {known} s, not {finest_step:g}")
+    pattern, steps = PATTERNS[scene], [step for step in STEPS if step >= finest_step]
+    preludes, ensembles = simulate_ensembles(pattern, seeds, steps)
+    finest = ensembles[finest_step][0]
     found = {
         (quantity, step): of_mean(values[:, i], finest[:, i])
         for i, quantity in enumerate(QUANTITIES)
@@ -97,7 +102,7 @@ def production_rows(scene: str) -> Iterator[Row]:
             "unit": UNITS.get(quantity, "s"),
             "step": step,
             **biased,
-            "scale": found[against, min(STEPS)]["value"],
+            "scale": found[against, finest_step]["value"],
             "realisations": seeds,
             "cpu_seconds": float(np.median(ensembles[step][2])),
             "prelude_seconds": preludes[step],
@@ -105,23 +110,23 @@ def production_rows(scene: str) -> Iterator[Row]:
 
 
 def simulate_ensembles(
-    pattern: Pattern, seeds: int
+    pattern: Pattern, seeds: int, steps: Sequence[float]
 ) -> tuple[dict[float, float], dict[float, Kept]]:
     """Return the CPU time of the prelude and the results of all seeds, by step.
 
     Each seed is run with all steps in turn, so that other load on the machine affects all alike.
     """
-    setups = {h: Setup(step=h, sample_interval=SAMPLE_INTERVAL) for h in STEPS}
+    setups = {h: Setup(step=h, sample_interval=SAMPLE_INTERVAL) for h in steps}
     compute_prelude(Pattern.flat(4).contact)  # compiled first
-    preludes = {h: timed(partial(compute_prelude, pattern.contact, setups[h])) for h in STEPS}
-    kept: dict[float, list[Kept]] = {h: [] for h in STEPS}
+    preludes = {h: timed(partial(compute_prelude, pattern.contact, setups[h])) for h in steps}
+    kept: dict[float, list[Kept]] = {h: [] for h in steps}
     for seed in tqdm(range(seeds), desc="seeds"):
         surface = Surface.draw(pattern.contact, seed)
         for h, (prelude, _) in preludes.items():
             pull = partial(simulate, surface, setups[h], prelude=prelude)
             kept[h].append(keep(pattern, *timed(pull)))
     seconds = {h: spent for h, (_, spent) in preludes.items()}
-    return seconds, {h: tuple(map(np.stack, zip(*kept[h], strict=True))) for h in STEPS}
+    return seconds, {h: tuple(map(np.stack, zip(*kept[h], strict=True))) for h in steps}
 
 
 def keep(pattern: Pattern, run: Realisation, seconds: float) -> Kept:

@@ -5,20 +5,21 @@ Two comparisons, each for a flat, a pillared and a grooved scene:
 reference  single runs against the event-located reference solution, run by run; t_det up to the
            horizon, beyond which no step makes single runs agree; and `order`, how their errors
            fall with the step;
-paired     ensembles against the leapfrog at a fine step with the same seeds: what is left on the
-           mean where single runs no longer agree; and `scatter`, the spread from seed to seed.
+paired     ensembles of 16 x 16 blocks with the paper's step against the leapfrog at a fine step
+           with the same seeds, and `scatter`, the spread from seed to seed: what the paper says of
+           its step is tested on them. `production` has ensembles at the study's own size.
 """
 
 import time
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 import numpy as np
 import pyarrow as pa
 from tqdm import tqdm
 
-from springblock.accuracy import plain_rk4, reference
+from springblock.accuracy import plain_rk4
 from springblock.accuracy.conventions import (
     HORIZON_NUDGE,
     MEANS,
@@ -28,6 +29,7 @@ from springblock.accuracy.conventions import (
     SAMPLE_INTERVAL,
     half_width,
 )
+from springblock.accuracy.solutions import SMALL, Solution, solutions
 from springblock.io.rows import Row
 from springblock.io.schemas import N_BLOCKS, column, numbers, texts
 from springblock.model.numbers import Array
@@ -66,41 +68,29 @@ SCHEMA = pa.schema(
 )
 
 
-class _Surfaces(NamedTuple):
-    """Surfaces that represent a scene."""
-
-    single: Pattern  #: small enough for the reference solution
-    duration: float  #: of single runs, s
-    singles: int  #: seeds of these; the reference takes 5 to 20 CPU s for each
-    ensemble: Pattern  #: small enough for paired ensembles
-    seeds: int  #: of these; enough to resolve a bias of 0.1 %
-
-
-_GROOVES = Pattern.pillars(6, 5, 1).grooved(2, 1), Pattern.pillars(16, 8, 8).grooved(2, 1)
-_SURFACES = {
-    "flat": _Surfaces(Pattern.flat(12), 1.25e-4, 4, Pattern.flat(16), 100),
-    "pillared": _Surfaces(Pattern.pillars(8, 4, 4), 3.5e-4, 6, Pattern.pillars(16, 4, 4), 100),
-    "grooved": _Surfaces(_GROOVES[0], 2.0e-4, 6, _GROOVES[1], 200),
+#: Surfaces of ensembles, and seeds: enough to resolve a bias of 0.1 %.
+ENSEMBLES = {
+    "flat": (Pattern.flat(16), 100),
+    "pillared": (Pattern.pillars(16, 4, 4), 100),
+    "grooved": (Pattern.pillars(16, 8, 8).grooved(2, 1), 200),
 }
-
 STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9)
 SETTLED_STEPS = STEPS[3:]  #: errors fall with one order, on patterned surfaces too
-PLAIN_STEPS = STEPS[:-2]  #: enough to show that errors hardly decrease
+PLAIN_STEPS = STEPS[:4]  #: enough to show that errors hardly decrease
 #: By one step of each method.
 FORCE_EVALUATIONS = {name: each.FORCE_EVALUATIONS for name, each in INTEGRATORS.items()}
 FORCE_EVALUATIONS[PLAIN] = 4
-PAIRED_STEPS = dict.fromkeys(INTEGRATORS, (8e-8, 4e-8, 2e-8, 1e-8)) | {PLAIN: (PAPER_STEP,)}
 PAIRED_SEEDS = {"rk4": 50, PLAIN: 20}  #: at most; fewer where a step costs more
-FINE_STEP = 5e-9  #: at second order, it has a sixteenth of the error of the default
+FINE_STEP = 5e-9  #: at second order, it has a quarter of the error of the paper's
 Errors = dict[str, Array]  #: by quantity, one for each realisation
 Computed = Realisation | plain_rk4.Solution
-Solved = Computed | reference.Reference
+Solved = Computed | Solution
 Timed = tuple[Computed, float]  #: a run and its CPU time, s
 Cost = tuple[float, float]  #: median CPU time, s, and mean force evaluations of a realisation
 Result = TypeVar("Result")
 
 
-def run_errors(run: Computed, exact: reference.Reference, until: float) -> dict[str, float]:
+def run_errors(run: Computed, exact: Solution, until: float) -> dict[str, float]:
     """Return the relative errors of one run; times relative to the exact t_max.
 
     `until` is the horizon, s, up to which single runs can be compared.
@@ -153,11 +143,9 @@ def cost_of(integrator: str, runs: Sequence[Timed]) -> Cost:
 
 def single_rows(scene: str) -> Iterator[Row]:
     """All methods and steps against the reference solution."""
-    pattern, duration, seeds, *_ = _SURFACES[scene]
-    surfaces = [Surface.draw(pattern.contact, seed) for seed in range(seeds)]
-    solve = partial(reference.solve, duration=duration, sample_interval=SAMPLE_INTERVAL)
-    exact = [solve(surface) for surface in tqdm(surfaces, desc=f"{scene}, reference")]
-    horizons = [horizon(*twins(scene, seed)) for seed in range(seeds)]
+    exact, duration = solutions(scene), SMALL[scene].duration
+    surfaces = [SMALL[scene].surface(seed) for seed in range(len(exact))]
+    horizons = [horizon(*twins(scene, seed)) for seed in range(len(exact))]
     for integrator in FORCE_EVALUATIONS:
         found: dict[float, Errors] = {}
         for step in tqdm(PLAIN_STEPS if integrator == PLAIN else STEPS, desc=integrator):
@@ -180,17 +168,16 @@ def orders_of(steps: Sequence[float], found: dict[float, Errors], quantity: str)
 
 
 def paired_rows(scene: str) -> Iterator[Row]:
-    """Ensembles of every method against the leapfrog at the fine step, seed by seed."""
-    seeds = _SURFACES[scene].seeds
+    """Ensembles at the paper's step against the leapfrog at the fine step, seed by seed."""
+    _, seeds = ENSEMBLES[scene]
     fine = ensemble(scene, "leapfrog", FINE_STEP, seeds)
     exact, longest = means_of(fine), max(float(run.time[-1]) for run, _ in fine)
-    for integrator, steps in PAIRED_STEPS.items():
+    for integrator in FORCE_EVALUATIONS:
         few = min(seeds, PAIRED_SEEDS.get(integrator, seeds))
-        for step in steps:
-            runs = ensemble(scene, integrator, step, few, longest)
-            means, cost = means_of(runs), cost_of(integrator, runs)
-            errors = {name: means[name] / exact[name][:few] - 1.0 for name in MEANS}
-            yield from rows_of("paired", scene, integrator, step, errors, cost)
+        runs = ensemble(scene, integrator, PAPER_STEP, few, longest)
+        means, cost = means_of(runs), cost_of(integrator, runs)
+        errors = {name: means[name] / exact[name][:few] - 1.0 for name in MEANS}
+        yield from rows_of("paired", scene, integrator, PAPER_STEP, errors, cost)
     spread = {name: values / values.mean() - 1.0 for name, values in exact.items()}
     yield from rows_of("scatter", scene, "leapfrog", FINE_STEP, spread)
 
@@ -202,7 +189,7 @@ def ensemble(
 
     `duration`, s, is for the plain method; the integrators stop once the surface slides.
     """
-    pattern = _SURFACES[scene].ensemble
+    pattern, _ = ENSEMBLES[scene]
     solve: Callable[[Surface], Computed]
     if integrator == PLAIN:
         solve = partial(solve_with, PLAIN, step, duration=duration)
@@ -221,8 +208,7 @@ def means_of(runs: Sequence[Timed]) -> Errors:
 
 def twins(scene: str, seed: int) -> tuple[Computed, Computed]:
     """Return a run, and one with each threshold changed by a random share like `HORIZON_NUDGE`."""
-    pattern, duration, *_ = _SURFACES[scene]
-    surface = Surface.draw(pattern.contact, seed)
+    surface, duration = SMALL[scene].surface(seed), SMALL[scene].duration
     change = HORIZON_NUDGE * np.random.default_rng(seed).standard_normal(surface.mu_static.shape)
     nudged = Surface(surface.contact, surface.mu_static * (1.0 + change), surface.mu_dynamic)
     one, other = (solve_with("leapfrog", FINE_STEP, each, duration) for each in (surface, nudged))
@@ -246,8 +232,7 @@ def rows_of(
     cost: Cost = (0.0, 0.0),
 ) -> Iterator[Row]:
     """Summarise the errors of several realisations, a row per quantity, with their cost."""
-    single = comparison in ("reference", "order")
-    pattern = _SURFACES[scene].single if single else _SURFACES[scene].ensemble
+    small = SMALL[scene].pattern if comparison in ("reference", "order") else ENSEMBLES[scene][0]
     for quantity, values in errors.items():
         count, error, half = len(values), float(values.mean()), 0.0
         if comparison == "reference":
@@ -257,7 +242,7 @@ def rows_of(
         yield {
             "comparison": comparison,
             "scene": scene,
-            "n_blocks": pattern.n_blocks,
+            "n_blocks": small.n_blocks,
             "integrator": integrator,
             "step": step,
             "quantity": quantity,

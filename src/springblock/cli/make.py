@@ -12,7 +12,7 @@ from springblock.io.parquet import load, origin_of, read, rows_to_table, write
 from springblock.io.records import by_scene, read_records
 from springblock.mechanism.surfaces import TABLES
 
-MEASURED = ["stability"]
+MEASURED = ["stability", "reference"]
 MEASURED += [f"{kind}-{scene}" for kind in (*COMPARISONS, "production") for scene in SCENES]
 MEASURED += [f"mechanism-{part}" for parts in TABLES.values() for part in parts]
 _ACCURACY = ("work_precision", "stability", "realisations", "production")
@@ -20,32 +20,43 @@ _ACCURACY = ("work_precision", "stability", "realisations", "production")
 INPUTS = {
     **dict.fromkeys(MEASURED, ("no inputs", 0, 0)),
     "collect": ("tables of equal columns", 1, None),
-    "accuracy": (f"the tables {', '.join(_ACCURACY)}, the last one if there is one", 3, 4),
+    "accuracy": (f"the tables {', '.join(_ACCURACY)}", len(_ACCURACY), len(_ACCURACY)),
     "mechanism": (f"the tables {', '.join(TABLES)}", len(TABLES), len(TABLES)),
     "beyond": ("batches of realisations", 1, None),
 }
+_ENSEMBLES = "Of the ensembles of `production-SCENE`."
 
 
 @click.command("make", epilog=f"Names: {', '.join(INPUTS)}.")
 @click.argument("name", type=click.Choice(list(INPUTS)), metavar="NAME")
 @click.argument("inputs", type=INPUT, nargs=-1)
 @click.option("--configuration", help="Digest of the configuration, for `collect`.")
+@click.option("--seeds", type=click.IntRange(2), default=10, show_default=True, help=_ENSEMBLES)
+@click.option("--finest-step", type=float, default=1e-8, show_default=True, help=_ENSEMBLES)
 @click.option(
     "--output", type=Output(), required=True, help="Parquet file, or Markdown for a page."
 )
-def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output: Path) -> None:
+def make(
+    name: str,
+    inputs: tuple[Path, ...],
+    configuration: str | None,
+    seeds: int,
+    finest_step: float,
+    output: Path,
+) -> None:
     """Make the table or page NAME.
 
     \b
     Tables, without INPUTS:
       stability          stiff and extreme cases
-      reference-SCENE    errors of single runs (likewise paired-SCENE: of ensembles)
+      reference          solutions of the small runs, compared with those of the package
+      reference-SCENE    errors of single runs (likewise paired-SCENE: of small ensembles)
       production-SCENE   errors of ensembles with N = 120
       mechanism-N_P      simpler models on pillars (likewise on other surfaces)
     From INPUTS:
       collect            one table, from tables of equal columns made by the same code
       accuracy           page on errors, from the tables work_precision, stability,
-                         realisations and, if there is one, production
+                         realisations and production
       mechanism          page on static friction, from its tables
       beyond             page on questions beyond the paper, from batches
     """
@@ -54,29 +65,43 @@ def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output:
         raise ValueError(f"{name}: {len(inputs)} files given; give {wanted}")
     check_type(output, ".parquet" if name in (*MEASURED, "collect") else ".md")
     if name in MEASURED:
-        _measure(name, output)
+        _measure(name, seeds, finest_step, output)
     elif name == "collect":
         _collect(inputs, configuration, output)
     else:
         write_text(output, _page(name, inputs))
 
 
-def _measure(name: str, output: Path) -> None:
-    """Write a table that does not depend on the configuration."""
+def _measure(name: str, seeds: int, finest_step: float, output: Path) -> None:
+    """Write a table without inputs."""
     from springblock.accuracy import production, stability, work_precision
     from springblock.mechanism.tables import FRICTION, measure
 
+    if name == "reference":
+        _solve(output)
+        return
     kind, _, scene = name.partition("-")
     step, schema = "accuracy", work_precision.SCHEMA
     if kind == "stability":
         schema, rows = stability.SCHEMA, stability.stability_rows()
     elif kind == "production":
-        schema, rows = production.SCHEMA, list(production.production_rows(scene))
+        schema = production.SCHEMA
+        rows = list(production.production_rows(scene, seeds, finest_step))
     elif kind == "mechanism":
         step, schema, rows = "mechanism", FRICTION, list(measure(scene))
     else:
         rows = list(work_precision.ROWS[kind](scene))
     write(rows_to_table(rows, schema), output, {"code_version": code_version(step)})
+
+
+def _solve(output: Path) -> None:
+    """Write the reference solutions, computed again, and refuse those that have changed."""
+    from springblock.accuracy import solutions
+
+    rows = list(solutions.solve_all())
+    metadata = {"code_version": code_version("accuracy"), "solutions": solutions.digest()}
+    write(rows_to_table(rows, solutions.SCHEMA), output, metadata)
+    solutions.refuse_changed(rows, solutions.stored())
 
 
 def _collect(tables: tuple[Path, ...], configuration: str | None, output: Path) -> None:

@@ -1,7 +1,7 @@
 """Default integrator and times of a run, in a module that is quick to import."""
 
 INTEGRATOR = "leapfrog"
-#: Integration step, s, chosen from results/tables/work_precision.parquet.
+#: Integration step, s, chosen from results/tables/production.parquet.
 STEP = 2e-8
 #: Time between two samples of the force, s.
 SAMPLE_INTERVAL = 2e-7

@@ -5,15 +5,14 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator
+from matplotlib.ticker import LogLocator
 from pandas import DataFrame
 
-from springblock.accuracy import conventions
 from springblock.accuracy.conventions import ENSEMBLE, PAPER_STEP, PLAIN, SCENES
 from springblock.model.defaults import INTEGRATOR, STEP
 from springblock.plotting import style
-from springblock.plotting.curves import draw_points, name_places
-from springblock.plotting.style import BLACK, GREY, NANO, PERCENT, Look
+from springblock.plotting.curves import draw_points
+from springblock.plotting.style import BLACK, GREEN, GREY, NANO, PURPLE, Look
 
 #: Names, colours and markers, with the Runge-Kutta whose order is lost.
 _METHODS = style.METHODS | {
@@ -21,13 +20,18 @@ _METHODS = style.METHODS | {
 }
 _ORDER_TWO: Look = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (5, 3))}
 _SCATTER: Look = {"color": "#D6E4EE", "linewidth": 0.0, "zorder": 0}
-_FULL_SCATTER: Look = _SCATTER | {"color": "#A4C3D9", "zorder": 0.2}
-#: Of the leapfrog on surfaces of the study's size.
-_FULL: Look = {"label": "leapfrog, 120 × 120 blocks", "color": BLACK, "marker": "D"}
+#: Quantities whose biases are shown, and by how much their symbols are moved aside.
+_BIASES: dict[str, tuple[Look, float]] = {
+    "static_friction": ({"label": "static friction", "color": BLACK, "marker": "D"}, 0.94),
+    "t_max": ({"label": r"$t_\mathrm{max}$", "color": GREEN, "marker": "v"}, 1.0),
+    "t_avg": ({"label": r"$t_\mathrm{avg}$", "color": PURPLE, "marker": "s"}, 1.06),
+}
+_COARSEST = 2.0 * STEP  #: s; biases of larger steps are many times as large
 _RING: Look = {"fillstyle": "none", "color": BLACK, "linestyle": "none"}
+_DEFAULT_RING: Look = _RING | {"marker": "o", "markersize": 8.5}
 #: Integrator, step in s and ring of the default of `simulate` and of the paper.
 _MARKED: dict[str, tuple[str, float, Look]] = {
-    "default": (INTEGRATOR, STEP, {**_RING, "marker": "o", "markersize": 8.5}),
+    "default": (INTEGRATOR, STEP, _DEFAULT_RING),
     "paper": (PLAIN, PAPER_STEP, {**_RING, "marker": "D", "markersize": 7.5}),
 }
 
@@ -51,42 +55,33 @@ _SMALLEST = 1e-16  #: relative error
 _LEAST = 1e-6  #: share of the accepted error; what is less, or nothing, is drawn here
 
 
-def work_precision(table: DataFrame, production: DataFrame | None = None) -> Figure:
-    """Draw a-c) errors of single runs over their cost and d-f) biases of ensembles over the step.
+def work_precision(table: DataFrame, production: DataFrame) -> Figure:
+    """Draw a-c) errors of single runs over force evaluations and d-f) biases over the CPU time.
 
-    A column for each scene, from the tables `work_precision` and, if there is one, `production`.
+    A column for each scene, from the tables `work_precision` and `production`.
     """
     picture, panels = style.panels(style.DOUBLE, 125.0, "abc;def")
     times, biases = panels[:3], panels[3:]
     is_reference = table.comparison == "reference"
     single = table[is_reference & (table.quantity == "t_det before horizon")]
-    ensembles = table[~is_reference & (table.quantity == "static_friction")]
+    times[1].sharex(times[0])
+    times[2].sharex(times[0])
     for left, *others in (times, biases):  # the same axes, with numbers at the left only
         for ax in others:
-            ax.sharex(left)
             ax.sharey(left)
             ax.tick_params(labelleft=False)
     for scene, upper, lower in zip(SCENES, times, biases, strict=True):
-        runs, paired = single[single.scene == scene], ensembles[ensembles.scene == scene]
+        runs, full = single[single.scene == scene], production[production.scene == scene]
         _draw_costs(upper, runs)
-        _draw_paired(lower, paired)
-        for ax, rows in ((upper, runs), (lower, paired[paired.comparison == "paired"])):
+        _draw_biases(lower, full[full.step <= _COARSEST])
+        for ax, rows in ((upper, runs), (lower, full)):
             sizes = " or ".join(f"{n} × {n}" for n in rows.n_blocks.unique())
             ax.set_title(f"{scene}, {sizes} blocks")
-        if production is not None:
-            full = production[production.quantity == "static_friction"]
-            _draw_production(lower, full[full.scene == scene].sort_values("step"))
     ends = 0.3 * single.error.min(), 3.0 * single.error.max()
     times[0].set(xscale="log", yscale="log", ylim=ends)
     times[0].set_ylabel("RMS error of $t_\\mathrm{det}/t_\\mathrm{max}$\nbefore the horizon")
-    # Linear up to 1 % and logarithmic beyond: neither the intervals of fine steps nor the biases of
-    # the coarsest get lost.
-    biases[0].set_yscale("symlog", linthresh=1.0, linscale=1.0)
-    biases[0].yaxis.set_major_locator(FixedLocator([-5.0, -1.0, 0.0, 1.0, 5.0]))
-    biases[0].yaxis.set_major_formatter("{x:g}")
-    biases[0].set_ylabel("bias of static friction (%)")
-    name_places(biases[0], NANO * ensembles.step[ensembles.comparison == "paired"])
-    style.legend_above(picture, times[0], biases[0], ncols=4)
+    biases[0].set_ylabel(f"bias / standard error\nof a mean over {ENSEMBLE} seeds")
+    style.legend_above(picture, times[0], biases[0], ncols=5)
     return picture
 
 
@@ -106,28 +101,31 @@ def _draw_costs(ax: Axes, rows: DataFrame) -> None:
     ax.set_xlabel("force evaluations")
 
 
-def _draw_paired(ax: Axes, table: DataFrame) -> None:
-    """Draw biases of ensembles with paired seeds over the scatter of means of ENSEMBLE seeds."""
-    paired, scatter = (table[table.comparison == name] for name in ("paired", "scatter"))
-    # 95 % of the means over ENSEMBLE seeds lie within ± half.
-    deviation = (scatter.ci_high - scatter.ci_low) * np.sqrt(scatter.realisations / ENSEMBLE)
-    half = 0.5 * PERCENT * float(deviation.item())
-    ax.axhspan(-half, half, label=f"95 % of means over {ENSEMBLE} seeds", **_SCATTER)
+def _draw_biases(ax: Axes, rows: DataFrame) -> None:
+    """Draw biases with their intervals over the CPU time, and name the steps; the default ringed.
+
+    Biases are in units of the standard error of a mean over ENSEMBLE seeds.
+    """
+    ax.axhspan(-1.0, 1.0, label=f"standard error of {ENSEMBLE} seeds", **_SCATTER)
     ax.axhline(0.0, color=BLACK, linewidth=0.4, zorder=0.5)
-    for method, aside in (("leapfrog", 0.94), ("rk4", 1.06), (PLAIN, 1.0)):  # side by side
-        line = paired[paired.integrator == method].sort_values("step")
-        intervals = PERCENT * line[["error", "ci_low", "ci_high"]]
-        draw_points(ax, aside * NANO * line.step, intervals, **_METHODS[method])
-    ax.set_xlabel("integration step (ns)")
-
-
-def _draw_production(ax: Axes, rows: DataFrame) -> None:
-    """Draw biases and scatter of ensembles with N = 120; the finest step has no bias."""
-    biases = PERCENT * rows[["bias", "ci_low", "ci_high"]].div(rows.scale, axis=0)
-    draw_points(ax, NANO * rows.step[1:], biases[1:], **_FULL)
-    spread = float((rows.deviation / rows.scale).iloc[0])
-    half = PERCENT * conventions.half_width(spread, ENSEMBLE)
-    ax.axhspan(-half, half, label="the same, 120 × 120 blocks", **_FULL_SCATTER)
+    for quantity, (look, aside) in _BIASES.items():
+        line = rows[rows.quantity == quantity].sort_values("step")
+        error = line.deviation.iloc[0] / np.sqrt(ENSEMBLE)
+        intervals = line[["bias", "ci_low", "ci_high"]] / error
+        draw_points(ax, aside * line.cpu_seconds, intervals, **look)
+        default = line.step == STEP
+        ax.plot(aside * line.cpu_seconds[default], intervals.bias[default], **_DEFAULT_RING)
+    side = ax.get_xaxis_transform()
+    for step, seconds in line[["step", "cpu_seconds"]].itertuples(index=False):
+        weight = "bold" if step == STEP else "normal"
+        place: Look = {"transform": side, "ha": "center", "va": "top"}
+        ax.text(seconds, 0.97, f"{NANO * step:g} ns", weight=weight, **place)
+    ax.set_xscale("log")
+    ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    ax.xaxis.set_major_formatter("{x:g}")
+    ax.xaxis.set_minor_formatter("")
+    ax.margins(x=0.12, y=0.2)
+    ax.set_xlabel("CPU seconds per realisation")
 
 
 def stability(cases: DataFrame) -> Figure:

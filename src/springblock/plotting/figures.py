@@ -144,18 +144,18 @@ FIGURES: dict[str, Declaration] = {
         t_max. {ENDS}""",
     ),
     "work_precision": Declaration(
-        title="Error against work",
+        title="Error against run time",
         module="accuracy",
         caption="""a-c) Error of first detachment times before the horizon, in single
-        realisations, relative to a solution that locates every event, against force evaluations.
-        d-f) Bias of mean static friction against the step, relative
-        to the same seeds at a fine step. Small surfaces and, where the study has `production:
-        true`, 120 × 120 blocks; both integrators, and plain Runge-Kutta, with friction
-        evaluated in each stage.""",
+        realisations on small surfaces, relative to a solution that locates every event, against
+        force evaluations; both integrators, and plain Runge-Kutta, with friction evaluated in each
+        stage. d-f) Bias of mean static friction, t_max and t_avg against the CPU time of one
+        realisation, for the steps given at the top; relative to the same seeds at the finest step,
+        and divided by the standard error of a mean over 20 seeds.""",
         draws="tables",
         tables=("work_precision", "production"),
-        marks="""Blue areas: range of 95 % of the means over 20 seeds. Bars: 95 % t intervals. The
-        axis of biases is linear within ±1 % and logarithmic beyond.""",
+        marks="""Circles: default. Blue areas: biases smaller than the standard error. Bars: 95 % t
+        intervals.""",
     ),
     "stability": Declaration(
         title="Stiff and extreme cases",

@@ -107,8 +107,6 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
     error = jsonschema.exceptions.best_match(_Validator(schema).iter_errors(configuration))
     if error is not None:
         raise ValueError(_sentence(error))
-    if configuration["production"] and not configuration["accuracy"]:
-        raise ValueError("production: true needs accuracy: true")
     usual, groups = setup(configuration), ensembles(configuration)
     if not any(groups.values()):
         raise ValueError("scenes: no scenes are given; add a group, as config/README.md shows")
