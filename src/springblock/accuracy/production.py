@@ -75,10 +75,7 @@ UNITS = {"static_friction": "1", LENGTH: "blocks"}  #: of quantities other than 
 
 
 def production_rows(scene: str, seeds: int, finest_step: float) -> Iterator[Row]:
-    """Compare ensembles of one scene at the steps down to the finest; a row per quantity and step.
-
-    The time is proportional to the seeds, and nearly doubles with each step.
-    """
+    """Compare ensembles of one scene at steps down to the finest; a row per quantity and step."""
     if finest_step not in FINEST:
         known = " or ".join(f"{step:g}" for step in FINEST)
         raise ValueError(f"the finest step must be {known} s, not {finest_step:g}")

@@ -13,7 +13,7 @@ import pyarrow as pa
 from tqdm import tqdm
 
 from springblock.accuracy import reference
-from springblock.accuracy.conventions import SAMPLE_INTERVAL
+from springblock.accuracy.conventions import MEANS, SAMPLE_INTERVAL
 from springblock.io.parquet import load, origin_of
 from springblock.io.rows import Row, select
 from springblock.io.schemas import column, lists, numbers, texts
@@ -73,7 +73,7 @@ def solve(scene: str, seed: int) -> Row:
     """Compute one solution: a row of the table."""
     surface, duration = SMALL[scene].surface(seed), SMALL[scene].duration
     run = reference.solve(surface, duration=duration, sample_interval=SAMPLE_INTERVAL)
-    scalars = {name: getattr(run, name) for name in ("static_friction", "t_max", "t_avg")}
+    scalars = {name: getattr(run, name) for name in MEANS}
     curves = {"force": run.force.astype(np.float32).tolist(), "t_det": run.t_det.ravel().tolist()}
     return {"scene": scene, "seed": seed, **scalars, **curves}
 
@@ -115,7 +115,7 @@ def solutions(scene: str) -> list[Solution]:
     for row in select(stored(), scene=scene):
         force, t_det = np.array(row["force"]), np.array(row["t_det"]).reshape(shape)
         time = SAMPLE_INTERVAL * np.arange(float(len(force)))
-        found.append(Solution(time, force, t_det, *(row[n] for n in Solution._fields[3:])))
+        found.append(Solution(time, force, t_det, *(row[name] for name in MEANS)))
     return found
 
 

@@ -74,15 +74,16 @@ def make(
 
 def _measure(name: str, seeds: int, finest_step: float, output: Path) -> None:
     """Write a table without inputs."""
-    from springblock.accuracy import production, stability, work_precision
+    from springblock.accuracy import production, solutions, stability, work_precision
     from springblock.mechanism.tables import FRICTION, measure
 
-    if name == "reference":
-        _solve(output)
-        return
     kind, _, scene = name.partition("-")
     step, schema = "accuracy", work_precision.SCHEMA
-    if kind == "stability":
+    metadata = {}
+    if name == "reference":
+        schema, rows = solutions.SCHEMA, list(solutions.solve_all())
+        metadata["solutions"] = solutions.digest()
+    elif kind == "stability":
         schema, rows = stability.SCHEMA, stability.stability_rows()
     elif kind == "production":
         schema = production.SCHEMA
@@ -91,17 +92,10 @@ def _measure(name: str, seeds: int, finest_step: float, output: Path) -> None:
         step, schema, rows = "mechanism", FRICTION, list(measure(scene))
     else:
         rows = list(work_precision.ROWS[kind](scene))
-    write(rows_to_table(rows, schema), output, {"code_version": code_version(step)})
-
-
-def _solve(output: Path) -> None:
-    """Write the reference solutions, computed again, and refuse those that have changed."""
-    from springblock.accuracy import solutions
-
-    rows = list(solutions.solve_all())
-    metadata = {"code_version": code_version("accuracy"), "solutions": solutions.digest()}
-    write(rows_to_table(rows, solutions.SCHEMA), output, metadata)
-    solutions.refuse_changed(rows, solutions.stored())
+    metadata["code_version"] = code_version(step)
+    write(rows_to_table(rows, schema), output, metadata)
+    if name == "reference":
+        solutions.refuse_changed(rows, solutions.stored())
 
 
 def _collect(tables: tuple[Path, ...], configuration: str | None, output: Path) -> None:

@@ -2,12 +2,11 @@
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 import yaml
 
-from springblock.accuracy.budget import STUDY_SEEDS, Bias, finest_bias
 from springblock.accuracy.conventions import DELAY, LENGTH
+from springblock.accuracy.page import STUDY_SEEDS, finest_bias
 
 CONFIG = Path(__file__).parents[2] / "config/config.yaml"
 
@@ -15,14 +14,6 @@ CONFIG = Path(__file__).parents[2] / "config/config.yaml"
 def row(bias, error=0.0, scale=1.0, **columns):
     ends = {"ci_low": bias - 2.0 * error, "ci_high": bias + 2.0 * error}
     return {"bias": bias, "bias_error": error, "scale": scale, **ends, **columns}
-
-
-def test_a_bias_is_freed_of_its_own_scatter(rng):
-    """b² is too large by error² on average; over many measurements nothing of it is left."""
-    bias, error = 3e-3, 1e-3
-    found = [Bias.of(row(b, error)).estimate ** 2 for b in rng.normal(bias, error, 4000)]
-    assert np.mean(found) == pytest.approx(bias**2, rel=0.04)  # four standard errors
-    assert Bias.of(row(-0.5, error=1.0, scale=2.0)) == Bias(0.0, 1.25)
 
 
 def test_the_bias_of_the_finest_step_is_told_at_first_order_and_covered_at_second():
