@@ -11,7 +11,7 @@ unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
 .PHONY: all quick full docs test browser test-slurm test-versions coverage soak mutants bench bench-ratios setup lock clean
 
-# The paper's study: all its figures, in twenty minutes on two cores.
+# The paper's figures and their errors, in @MAKE@ minutes on two cores.
 all: setup
 	$(BIN)/snakemake
 

@@ -52,7 +52,9 @@ rule all:
         if config["accuracy"]
         else [],
         rules.reference_solutions.output if config["accuracy"] and config["verification"] else [],
-        [PARTS, rules.mechanism.input, rules.mechanism.output] if config["mechanism"] else [],
+        MODEL_PARTS,
+        MODELS,
+        rules.mechanism.output if config["mechanism"] == "all" else [],
         rules.beyond.output if GROUPS_BEYOND else [],
     localrule: True
     message:

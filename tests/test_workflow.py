@@ -87,7 +87,7 @@ def test_every_rule_can_be_planned_by_its_name(study, tmp_path, kind):
     jobs = study.planned("--forceall", "--", *listed)
     assert jobs.keys() >= listed.keys()
     assert jobs["prelude"] == {"tiny": 5, "own": 1}[kind]
-    assert jobs["compare_scene"] == 9
+    assert jobs["compare_scene"] == 6
     assert study.planned("--forceall", "--", "prelude").keys() == {"compile", "prelude"}
 
 
@@ -179,7 +179,7 @@ def test_a_deleted_file_is_made_again_if_the_study_needs_it(study, springblock, 
 def test_the_record_names_all_parts_of_the_pages(study, tmp_path):
     """Also where nothing is to be done: no job of `fields` runs here."""
     study = study.copied(tmp_path / "study")
-    study.configure(accuracy=True, production=True, mechanism=True)
+    study.configure(accuracy=True, verification=True, mechanism="all")
     study.run("--", "fields")
     files = read_record(study.results)["files"]
     parts = {Path(file).parent.name for file in files}

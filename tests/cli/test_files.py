@@ -46,7 +46,7 @@ CLAIMED = ("correlation", "correlation-length", "work-precision")
     [
         *(("figure", name, "{file}", "--output", "{here}/a.png") for name, _ in TABLES),
         *(("claims", "{batch}", f"--{name}", "{file}", *CONFIGURATION, *PAGE) for name in CLAIMED),
-        ("make", "accuracy", *["{file}"] * 3, "--output", "{here}/a.md"),
+        ("make", "accuracy", *["{file}"] * 4, "--output", "{here}/a.md"),
         ("make", "mechanism", *["{file}"] * len(PARTS), "--output", "{here}/a.md"),
         ("plot", "{file}", "--output", "{here}/a.png"),
         ("animate", "{file}", "--output", "{here}/a.gif"),

@@ -321,7 +321,7 @@ def printed(words: list[str]) -> Iterator[str]:
 def jobs() -> str:
     """The commands of all jobs of a tiny study."""
     with tempfile.TemporaryDirectory() as name:
-        everything = {"accuracy": True, "verification": True, "mechanism": True}
+        everything = {"accuracy": True, "verification": True, "mechanism": "all"}
         watched = {"flat": TINY["scenes"]["flat"] | {"snapshot_times": [1e-5]}}
         scenes = TINY["scenes"] | watched
         tiny = Study.begun(Path(name) / "study", scenes=scenes, **everything)

@@ -25,7 +25,13 @@ from springblock.study.texts import check_texts
 from studies import ROOT, SCHEMA, places
 
 SWEEPS = {"angle": {"groups": ["grooves", "angles"], "over": "direction"}}
-PAPER = studies.PAPER | {"figures": studies.PAPER["figures"] | {"sweeps": SWEEPS}}
+FULL = yaml.safe_load((ROOT / "config/full.yaml").read_text())["scenes"]
+#: The paper's study with some groups of the full one, and a sweep.
+PAPER = studies.PAPER | {
+    "scenes": studies.PAPER["scenes"]
+    | {name: FULL[name] for name in ("angles", "gaps", "size_flat", "third_level")},
+    "figures": studies.PAPER["figures"] | {"sweeps": SWEEPS},
+}
 
 
 def changed(key, to):
@@ -51,7 +57,8 @@ def test_a_group_is_a_grid_over_its_lists():
     assert {len(e.seeds) for e in groups["angles"]} == {PAPER["scenes"]["angles"]["seeds"]}
     assert all(e.scene.n_s == e.scene.n_p for e in groups["pillars"])
     assert [e.scene.direction for e in groups["grooves"]][:2] == ["x", "y"]
-    assert groups["flat"][0] == Ensemble(Scene(120), range(10_000, 10_040), 3e-4)
+    seeds = PAPER["scenes"]["flat"]["seeds"]
+    assert groups["flat"][0] == Ensemble(Scene(120), range(10_000, 10_000 + seeds), 3e-4)
 
 
 def test_a_group_may_be_a_list_of_grids():

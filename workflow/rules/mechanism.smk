@@ -49,6 +49,14 @@ use rule precision_table as mechanism_table with:
         "Collecting results of simpler models: {wildcards.table}"
 
 
+#: Tables that the study has, and those of their parts.
+MODELLED = {"sizes": ["mechanism"], "all": [*TABLES]}.get(config["mechanism"], [])
+MODELS = expand(rules.mechanism_table.output, table=MODELLED)
+MODEL_PARTS = expand(
+    rules.mechanism_part.output, part=chain.from_iterable(TABLES[table] for table in MODELLED)
+)
+
+
 use rule accuracy as mechanism with:
     """Explain the lowest friction and two load peaks."""
     input:

@@ -46,7 +46,7 @@ rule report:
             if config["accuracy"]
             else []
         ),
-        mechanism=([rules.mechanism.output, rules.mechanism.input] if config["mechanism"] else []),
+        mechanism=[MODELS, rules.mechanism.output if config["mechanism"] == "all" else []],
         beyond=rules.beyond.output if GROUPS_BEYOND else [],
         glossary=[] if OWN or not Path(GLOSSARY).exists() else GLOSSARY,
         films=FILMED,
