@@ -11,7 +11,7 @@ unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
 .PHONY: all quick full docs test browser test-slurm test-versions coverage soak mutants bench bench-ratios setup lock clean
 
-# The paper's figures and their errors, in @MAKE@ minutes on two cores.
+# The paper's figures and their errors, in seven minutes on two cores.
 all: setup
 	$(BIN)/snakemake
 
