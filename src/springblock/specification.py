@@ -89,7 +89,7 @@ class Problem:
     """Surface, setup and sliding direction of a run, as the quantities of its equations."""
 
     # SI units: m in kg, l in m, gamma in 1/s, k_int and k_s in N/m, h in s, v_slider (2, 1, 1).
-    # contact, mu, load, fresh, f_static and f_c have a value for each block, (N_y, N_x).
+    # contact, mu, load, fresh and f_static have a value for each block, (N_y, N_x).
 
     def __init__(self, surface: Surface, setup: Setup, direction: str | float) -> None:
         material, contact = setup.material, surface.contact
@@ -108,14 +108,23 @@ class Problem:
         self.mu = {"mu_static": surface.mu_static, "mu_dynamic": surface.mu_dynamic}
         law = material.law
         self.law = law if isinstance(law, LawFile) else Law(LAWS[law], dict(material.items()))
-        #: state of blocks that detach
+        #: whether a block that stops forgets its state
+        self.heals = material.healing == "instant"
+        #: state of blocks that detach for the first time
         self.fresh = {
             name: np.full(contact.shape, value) for name, value in self.law.initial.items()
         }
         self.f_static = surface.mu_static * self.load  #: mu_s F_n, N
-        at_rest = resistance(self, self.fresh, np.zeros(contact.shape))
-        #: F_c, N, beyond which a block at rest slides: mu_s F_n or, if larger, friction at rest
-        self.f_c = np.maximum(self.f_static, at_rest * self.m / self.tau)
+
+    def thresholds(self, memory: Memory) -> tuple[Array, Array]:
+        """Force that holds a block which turns back, and F_c beyond which one at rest slides, N.
+
+        mu_s F_n, and that or, if larger, friction at rest; without healing both are friction at
+        rest.
+        """
+        at_rest = resistance(self, memory, np.zeros(self.contact.shape)) * self.m / self.tau
+        f_static = self.f_static if self.heals else at_rest
+        return f_static, np.maximum(f_static, at_rest)
 
     def call(self, function: Callable[..., Any], memory: Memory, speed: Array, outputs: int) -> Any:
         """Call `friction` or `update` for each block, with the arguments that it names."""
@@ -206,21 +215,23 @@ def resistance(problem: Problem, memory: Memory, speed: Array, share: Array | fl
     return np.where(bisected | (mean > 0.0), friction_at(mean), np.inf)
 
 
-def release_theta(problem: Problem, now: Array, u_before: Array, k: int) -> Array:
-    """Share θ of the step left after a release, (9), from |F_mot| at step k and u at k - 1.
+def release_theta(problem: Problem, f_c: Array, now: Array, u_before: Array, k: int) -> Array:
+    """Share θ of the step left after a release, (9), from F_c, |F_mot| at step k and u at k - 1.
 
     NaN if |F_mot| also exceeded F_c at k - 1: the block was at rest for an instant only.
     """
     before = np.hypot(*motive_force(problem, u_before, k - 1))
     with np.errstate(invalid="ignore", divide="ignore"):
-        theta = np.maximum(now - problem.f_c, 0.0) / (now - before)
-    return np.where(before <= problem.f_c, theta, np.nan)
+        theta = np.maximum(now - f_c, 0.0) / (now - before)
+    return np.where(before <= f_c, theta, np.nan)
 
 
 def leapfrog(problem: Problem, state: State) -> State:
     """Take one step of the leapfrog, (7), with releases by (9) to (12)."""
     m, h, a, tau = problem.m, problem.h, problem.a, problem.tau
-    k, u, v, contact, fresh = state.k, state.u, state.v, problem.contact, problem.fresh
+    k, u, v, contact = state.k, state.u, state.v, problem.contact
+    fresh = problem.fresh if problem.heals else state.memory  # of blocks at rest
+    f_static, f_c = problem.thresholds(fresh)
     force = motive_force(problem, u, k)
     w = a * v + tau / m * force
     w_dot_v = np.sum(v * w, axis=0)
@@ -228,7 +239,7 @@ def leapfrog(problem: Problem, state: State) -> State:
     end = _end_weight(problem, state.memory, np.hypot(*v))
     at = np.where(w_dot_v > 0.0, (1.0 - end) * v, 0.0) + end * w
     friction = resistance(problem, state.memory, np.hypot(*at), -end)
-    held = (w_dot_v <= 0.0) & (np.hypot(*force) <= problem.f_static)
+    held = (w_dot_v <= 0.0) & (np.hypot(*force) <= f_static)
     slides = (np.hypot(*w) > friction) & ~held
     with np.errstate(invalid="ignore"):
         new = np.where(slides, w - friction * mean / np.hypot(*mean), 0.0)
@@ -239,7 +250,7 @@ def leapfrog(problem: Problem, state: State) -> State:
 
     # Releases within the step, (9) to (12)
     u_before = u - h * _velocity_before(problem, state.memory, force, new)
-    theta = release_theta(problem, np.hypot(*force), u_before, k)
+    theta = release_theta(problem, f_c, np.hypot(*force), u_before, k)
     released = contact & slides & (np.hypot(*v) == 0.0) & np.isfinite(theta)
     theta = np.where(released, theta, 0.0)
     t_det = np.where(released & (t_det == k * h), (k - theta) * h, t_det)
@@ -305,7 +316,8 @@ def runge_kutta(problem: Problem, state: State) -> State:
     size, rests = np.hypot(*force), contact & (np.hypot(*v) == 0.0)
     at_rest = resistance(problem, state.memory, h / m * size / 2.0, -0.5)
     friction = np.where(rests, at_rest, resistance(problem, state.memory, np.hypot(*v)))
-    released = rests & (size > problem.f_static) & (h / m * size > friction)
+    f_static, f_c = problem.thresholds(problem.fresh)
+    released = rests & (size > f_static) & (h / m * size > friction)
     e = _direction(problem, force, v, friction, released)
     stuck = rests & ~released
 
@@ -329,7 +341,7 @@ def runge_kutta(problem: Problem, state: State) -> State:
     # Releases before the step, (9), (12) and (13)
     v = np.where(released, 0.0, v)
     u_before = np.where(np.hypot(*v) > 0.0, u - h * (v - dv / 2.0), u)
-    theta = release_theta(problem, size, u_before, k)
+    theta = release_theta(problem, f_c, size, u_before, k)
     theta = np.where(np.isnan(theta), 0.5, theta)
     t_det = np.where(released, np.minimum(state.t_det, (k - theta) * h), state.t_det)
     epsilon = h**2 / m * (problem.k_s + 6.0 * problem.k_int) / 8.0

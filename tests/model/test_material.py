@@ -11,7 +11,7 @@ PAPER = Material()
 MAY_VANISH = {"gamma", "mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std"}
 MAY_VANISH |= {"correlation_length", "slip_distance", "speed_scale"}
 NAMES = [field.name for field in fields(Material)]
-NUMBERS = [name for name in NAMES if name not in ("distribution", "law")]
+NUMBERS = [name for name in NAMES if name not in ("distribution", "law", "healing")]
 
 
 @pytest.mark.parametrize(
@@ -83,6 +83,8 @@ def test_constants_that_overflow_together_are_refused(constants, derived):
         ({"law": 1.0}, "law must be one of .*, not 1.0"),
         ({"law": "slip_weakening"}, "slip_distance must be positive with slip_weakening, not 0.0"),
         ({"slip_distance": 1e-7}, "slip_distance must be zero with coulomb, not 1e-07"),
+        ({"healing": "slow"}, "healing must be one of instant, none, not 'slow'"),
+        ({"healing": "none"}, "healing must be instant with coulomb, not 'none'"),
         ({"law": "velocity_weakening"}, "speed_scale must be positive with velocity_weakening"),
         (
             {"law": "slip_weakening", "slip_distance": 1e-7, "speed_scale": 0.1},

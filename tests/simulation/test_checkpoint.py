@@ -66,9 +66,10 @@ def answer(run):
     [
         ("leapfrog", Material()),
         ("rk4", Material(law="slip_weakening", slip_distance=5e-8)),
+        ("leapfrog", Material(law="slip_weakening", slip_distance=5e-8, healing="none")),
         ("leapfrog", Material(law="config/examples/exponential_weakening.py")),
     ],
-    ids=["leapfrog", "rk4", "law from a file"],
+    ids=["leapfrog", "rk4", "no healing", "law from a file"],
 )
 def test_a_continued_run_equals_the_uninterrupted_one(stopped, saved, integrator, material):
     setup, times = Setup(material, integrator), (4e-6, 1.2e-4, 1.41e-4, 1.5e-4)

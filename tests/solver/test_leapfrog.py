@@ -53,6 +53,7 @@ def assert_same_to_the_bit(one, other, fields):
 MOTION = ("ux", "uy", "vx", "vy", "t_det")
 WEAKENING = {
     "slip": replace(FAST, law="slip_weakening", slip_distance=2e-8),
+    "no healing": replace(FAST, law="slip_weakening", slip_distance=2e-8, healing="none"),
     "velocity": replace(FAST, law="velocity_weakening", speed_scale=0.1),
 }
 
@@ -97,7 +98,7 @@ def test_a_row_at_rest_is_skipped_until_a_block_may_detach():
     pull = constants.springs.k_s * np.hypot(constants.slider_x, constants.slider_y)
     rows.sliding[:] = False
     band = band_from(np.uint64(0), constants)
-    leapfrog._settle_rows(blocks, rows, band, scratch(), pull, 0)
+    leapfrog._settle_rows(blocks, None, rows, band, scratch(), pull, 0)
     sure = rows.due[0]
     assert sure == pytest.approx(blocks.static[1:13].min() / pull, rel=1e-3)
     rows.due[:] = sure

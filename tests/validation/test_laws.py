@@ -63,3 +63,14 @@ def test_a_slip_grows_as_friction_weakens_against_the_spring(
         errors.append(np.abs(way - path(time))[on].max() / path(after))
     assert errors[0] < fastest * COARSE**2
     assert errors[0] / errors[1] == SECOND_ORDER
+
+
+@pytest.mark.parametrize(("healing", "left"), [("instant", 1.0), ("none", 0.6)])
+def test_a_block_that_has_stopped_detaches_at_the_strength_that_it_has_left(healing, left):
+    """It slips further than d_c; the bound is the slider's pull between two samples."""
+    setup = Setup(replace(SLIP, healing=healing), step=COARSE, sample_interval=COARSE)
+    run = simulate(uniform(1, 1.0, 0.6), setup, duration=3.0 * RELEASE)
+    first, second = np.flatnonzero(run.switches)[:2]
+    assert not run.switches[first + 1 : second].any()
+    assert run.force[second] / LOAD == pytest.approx(left, abs=2.0 * SPEED * COARSE * K_S / LOAD)
+    assert abs(run.energy.relative_residual) < 1e-4

@@ -88,6 +88,7 @@ SETUP = pa.schema(
         ),
         column("slip_distance", pa.float64(), "m", "d_c of slip weakening; 0 for other laws"),
         column("speed_scale", pa.float64(), "m/s", "v_c of velocity weakening; 0 for other laws"),
+        *texts(healing="instant or none: whether a block that stops regains its strength"),
         column("integrator", pa.string(), "1", "leapfrog or rk4"),
         column("step", pa.float64(), "s", "integration step h"),
         column("sample_interval", pa.float64(), "s", "time between samples of the force"),

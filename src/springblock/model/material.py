@@ -13,6 +13,8 @@ from springblock.model.numbers import check_real
 DISTRIBUTIONS = ("normal", "lognormal", "weibull", "uniform")
 #: Laws of friction, see `springblock.solver.laws`, with the constant that each of them needs.
 LAWS = {"coulomb": "", "slip_weakening": "slip_distance", "velocity_weakening": "speed_scale"}
+#: Whether a block that stops regains its strength; without healing, slip weakening is for good.
+HEALING = ("instant", "none")
 #: Fields that may be zero; all other numbers must be positive.
 _MAY_VANISH = {"gamma", "mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std"}
 _MAY_VANISH |= {"correlation_length", "slip_distance", "speed_scale"}
@@ -57,8 +59,8 @@ class Material:
     ------
     TypeError, ValueError
         If a field is not a finite number of the allowed sign, a derived quantity exceeds the range
-        of floating point, the distribution or the law is unknown, or a law lacks its constant or
-        has that of another.
+        of floating point, the distribution, the law or the healing is unknown, or a law lacks its
+        constant or has that of another.
     """
 
     youngs_modulus: float = 1e7  #: E, Pa
@@ -77,16 +79,17 @@ class Material:
     law: str | LawFile = "coulomb"  #: law of friction, one of `LAWS` or from a file
     slip_distance: float = 0.0  #: d_c, m, of slip weakening; 0 with any other law
     speed_scale: float = 0.0  #: v_c, m/s, of velocity weakening; 0 with any other law
+    healing: str = "instant"  #: of a block that stops, one of `HEALING`; "instant" with other laws
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "law", as_law(self.law))
-        if self.distribution not in DISTRIBUTIONS:
-            raise ValueError(
-                f"Material.distribution must be one of {', '.join(DISTRIBUTIONS)}, "
-                f"not {self.distribution!r}"
-            )
+        for name, known in {"distribution": DISTRIBUTIONS, "healing": HEALING}.items():
+            if (value := getattr(self, name)) not in known:
+                raise ValueError(
+                    f"Material.{name} must be one of {', '.join(known)}, not {value!r}"
+                )
         for name, value in self.items():
-            if name in ("distribution", "law"):
+            if name in ("distribution", "law", "healing"):
                 continue
             number = check_real(f"Material.{name}", value, may_vanish=name in _MAY_VANISH)
             object.__setattr__(self, name, number)
@@ -111,6 +114,10 @@ class Material:
                 raise ValueError(f"Material.{name} must be positive with {law}, not {value!r}")
             if law != self.law and value:
                 raise ValueError(f"Material.{name} must be zero with {self.law}, not {value!r}")
+        if self.healing != "instant" and self.law != "slip_weakening":
+            raise ValueError(
+                f"Material.healing must be instant with {self.law}, not {self.healing!r}"
+            )
         if isinstance(self.law, LawFile):
             twice = self.law.constants.keys() & {field.name for field in fields(self)}
             if twice:

@@ -25,7 +25,7 @@ COLUMNS = (*_PATTERN, "n_rows", "edges", *MAPS)
 EDGES = ("free", "periodic")
 #: Constants that a scene may vary.
 CONSTANTS = (*dict(Material().items()), "integrator", "step")
-TEXTS = ("integrator", "distribution", "law")  #: constants that are not numbers
+TEXTS = ("integrator", "distribution", "law", "healing")  #: constants that are not numbers
 _SIDE = 6  #: least number of blocks of a side along which a correlation is measured
 
 Varied = tuple[tuple[str, Any], ...]  #: names and values of constants, in the order of `CONSTANTS`

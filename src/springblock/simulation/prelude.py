@@ -82,7 +82,7 @@ class Prelude:
         thresholds = np.maximum(static, dynamic)
         if isinstance(state.law, FromFile):
             each = zip(static, dynamic, strict=True)
-            thresholds = np.array([threshold_of(state.law, *pair) for pair in each])
+            thresholds = np.array([threshold_of(state.law, 0, *pair) for pair in each])
         holds = (self.peak * (1.0 + _SLACK) <= thresholds**2).all(axis=1)
         fit = np.flatnonzero(holds & (self.samples <= latest))
         if not fit.size:

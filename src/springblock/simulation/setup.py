@@ -76,10 +76,10 @@ class Setup:
         law = self.material.law
         if isinstance(law, LawFile):
             law.check(self.material.mu_static, self.material.mu_dynamic, self.step)
-            if self.integrator != "leapfrog":
-                raise ValueError(
-                    f"integrator must be leapfrog with the law {law}, not {self.integrator!r}"
-                )
+        lasting = self.material.healing == "none"
+        if self.integrator != "leapfrog" and (lasting or isinstance(law, LawFile)):
+            what = "healing none" if lasting else f"the law {law}"
+            raise ValueError(f"integrator must be leapfrog with {what}, not {self.integrator!r}")
         if not is_stable(self.integrator, self.step, self.material):
             raise ValueError(
                 f"step = {self.step:.4g} s is unstable: {self.integrator} needs less than "

@@ -11,7 +11,7 @@ import math
 from numba import njit
 
 from springblock.solver.inverse_root import inverse_root
-from springblock.solver.laws import end_weight, resistance, state_of, store_state
+from springblock.solver.laws import end_weight, resistance, state_of, store_state, strength_of
 
 
 @njit(inline="always")
@@ -30,8 +30,9 @@ def apply_friction(law, b, wx, wy, vx, vy, fx, fy, static, dynamic):
     is at rest after the step in two cases:
 
     - |w| ≤ T: friction can remove all of w (Moreau's step, with the exact velocity of a stop);
-    - w·v ≤ 0 and |F_mot| ≤ mu_s F_n: the block reverses, or was at rest, and static friction holds
-      it. If w·v ≤ 0 and it is not held, friction opposes w: v⁺ = w - T w/|w|.
+    - w·v ≤ 0 and |F_mot| ≤ mu_s F_n (without healing, the strength it has left): the block
+      reverses, or was at rest, and static friction holds it. If w·v ≤ 0 and it is not held,
+      friction opposes w: v⁺ = w - T w/|w|.
 
     A block at rest therefore moves only under a force beyond both mu_s F_n and mu_d F_n; if
     mu_s < mu_d, its only threshold is mu_d F_n.
@@ -43,7 +44,8 @@ def apply_friction(law, b, wx, wy, vx, vy, fx, fy, static, dynamic):
     at_x, at_y = start * vx + end * wx, start * vy + end * wy
     speed = math.sqrt(at_x * at_x + at_y * at_y)
     friction = resistance(law, state, speed, -end, static, dynamic)
-    held = (w_dot_v <= 0.0) & (fx * fx + fy * fy <= static * static)
+    strength = strength_of(law, state, static, dynamic)
+    held = (w_dot_v <= 0.0) & (fx * fx + fy * fy <= strength * strength)
     mean_x, mean_y = (wx + vx, wy + vy) if forwards else (wx, wy)
     lost = friction * inverse_root(mean_x * mean_x + mean_y * mean_y)
     slides = (wx * wx + wy * wy > friction * friction) & (not held)

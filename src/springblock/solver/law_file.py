@@ -189,11 +189,11 @@ def end_weight(law, row, speed, static, dynamic):
     return max(0.5, 1.0 - speed / max(fast - slow, speed))
 
 
-def threshold_of(law, static, dynamic):
+def threshold_of(law, row, static, dynamic):
     return max(static, _friction(law, len(law.state) - 1, 0.0, static, dynamic))
 
 
-def state_at_release(law):
+def state_at_release(law, row, moved):
     return len(law.state) - 1
 
 

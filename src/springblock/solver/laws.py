@@ -6,7 +6,8 @@ coulomb             mu = mu_d: Amontons-Coulomb, the paper's law.
 slip_weakening      mu = mu_d + (mu_s - mu_d) max(1 - s/d_c, 0) after a slip s: linear weakening
                     (Ida 1972, doi:10.1029/JB077i020p03796; Andrews 1976,
                     doi:10.1029/JB081i032p05679). A block that comes to rest heals instantly: its
-                    next slip begins with s = 0.
+                    next slip begins with s = 0. Without healing, s is the slip since the start of
+                    the run, and mu F_n is also the threshold of a block at rest.
 velocity_weakening  mu = mu_d + (mu_s - mu_d)/(1 + v/v_c) at a speed v (Burridge & Knopoff 1967,
                     doi:10.1785/BSSA0570030341; in this form Carlson & Langer 1989,
                     doi:10.1103/PhysRevA.40.6470, whose mu_d is zero).
@@ -40,13 +41,20 @@ class SlipWeakening(NamedTuple):
     rate: float  #: l/d_c
 
 
+class LastingWeakening(NamedTuple):
+    """Slip weakening without healing."""
+
+    slip: Array  #: of each block since the start, in l
+    rate: float  #: l/d_c
+
+
 class VelocityWeakening(NamedTuple):
     """Friction that decreases with speed."""
 
     scale: float  #: v_c, in l per step
 
 
-Law = SlipWeakening | VelocityWeakening | FromFile | None
+Law = SlipWeakening | LastingWeakening | VelocityWeakening | FromFile | None
 
 #: Values, in the kernels' units, beyond which d_c and v_c act as zero or infinity.
 _LEAST, _MOST = 1e-100, 1e100
@@ -70,7 +78,8 @@ def law_of(
         return from_file(law, contact, load, material.spacing / step, step)
     if law == "slip_weakening":
         distance = np.clip(material.slip_distance / material.spacing, _LEAST, _MOST)
-        return SlipWeakening(field(), 1.0 / float(distance))
+        weakening = LastingWeakening if material.healing == "none" else SlipWeakening
+        return weakening(field(), 1.0 / float(distance))
     if law == "velocity_weakening":
         scale = np.clip(material.speed_scale * step / material.spacing, _LEAST, _MOST)
         return VelocityWeakening(float(scale))
@@ -103,6 +112,10 @@ def _after_slip(law, slip, speed, share, static, dynamic):
     return dynamic + max(static - dynamic, 0.0) * (0.0 if at_once else left)
 
 
+def _strength(law, slip, static, dynamic):
+    return dynamic + max(static - dynamic, 0.0) * max(1.0 - slip * law.rate, 0.0)
+
+
 def _at_speed(law, slip, speed, share, static, dynamic):
     """Return T at the larger of the two solutions V, which a decelerating block reaches first."""
     drop, c, fastest = max(static - dynamic, 0.0), law.scale, speed + share * dynamic
@@ -115,12 +128,21 @@ def _store_slip(law, b, state, moved, slides):
     law.slip[b] = state + moved if slides else 0.0
 
 
+def _add_slip(law, b, state, moved, slides):
+    law.slip[b] = state + moved
+
+
+def _slip_before(law, slip, moved):
+    return max(slip - moved, 0.0)
+
+
 #: (law, state, speed, share, static, dynamic) -> T at the mean speed V = speed + share T, where
 #: `speed` is that without friction: share is -β in the leapfrog, see `friction`. If V is known,
 #: share is 0. T is infinite if no V solves the equation: the block stops.
 resistance = _of_each_law(
     {
         SlipWeakening: _after_slip,
+        LastingWeakening: _after_slip,
         VelocityWeakening: _at_speed,
         FromFile: law_file.resistance,
     },
@@ -131,26 +153,46 @@ resistance = _of_each_law(
 end_weight = _of_each_law(
     {FromFile: law_file.end_weight}, lambda law, state, speed, static, dynamic: 0.5
 )
-#: (law, static, dynamic) -> threshold of the force on a block at rest, F_c.
-threshold_of = _of_each_law(
-    {FromFile: law_file.threshold_of}, lambda law, static, dynamic: max(static, dynamic)
+#: (law, state, static, dynamic) -> largest force on a block at rest, or that reverses, which holds
+#: it: mu_s F_n, unless it has lost strength.
+strength_of = _of_each_law(
+    {LastingWeakening: _strength}, lambda law, state, static, dynamic: static
 )
-#: (law) -> state of a block that detaches: its slip, or the row of its state.
-state_at_release = _of_each_law({FromFile: law_file.state_at_release}, lambda law: 0.0)
+#: (law, state, static, dynamic) -> threshold of the force on a block at rest, F_c.
+threshold_of = _of_each_law(
+    {LastingWeakening: _strength, FromFile: law_file.threshold_of},
+    lambda law, state, static, dynamic: max(static, dynamic),
+)
+#: (law, state, moved) -> state at its release of a block that has since slipped by `moved`: its
+#: slip, or the row of its state.
+state_at_release = _of_each_law(
+    {LastingWeakening: _slip_before, FromFile: law_file.state_at_release},
+    lambda law, state, moved: 0.0,
+)
 #: (law, b) -> state of block b.
 state_of = _of_each_law(
-    {SlipWeakening: lambda law, b: law.slip[b], FromFile: law_file.state_of}, lambda law, b: 0.0
+    {
+        SlipWeakening: lambda law, b: law.slip[b],
+        LastingWeakening: lambda law, b: law.slip[b],
+        FromFile: law_file.state_of,
+    },
+    lambda law, b: 0.0,
 )
 #: (law, state, moved) -> state before the last step, in which the block slipped by `moved`.
 state_before = _of_each_law(
     {
-        SlipWeakening: lambda law, state, moved: max(state - moved, 0.0),
+        SlipWeakening: _slip_before,
+        LastingWeakening: _slip_before,
         FromFile: law_file.state_before,
     },
     lambda law, state, moved: 0.0,
 )
 #: (law, b, state, moved, slides): store the state of block b after a step from `state`.
 store_state = _of_each_law(
-    {SlipWeakening: _store_slip, FromFile: law_file.store_state},
+    {
+        SlipWeakening: _store_slip,
+        LastingWeakening: _add_slip,
+        FromFile: law_file.store_state,
+    },
     lambda law, b, state, moved, slides: None,
 )

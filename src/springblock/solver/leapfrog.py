@@ -40,6 +40,7 @@ from springblock.solver.laws import (
     state_before,
     state_of,
     store_state,
+    strength_of,
     threshold_of,
 )
 from springblock.solver.release import force_in_patch, make_releases, release_theta
@@ -117,8 +118,9 @@ def _list_releases(blocks, law, released, count, band, s, row):
         if blocks.static[b] > 0.0 and (vx != 0.0 or vy != 0.0):
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             force = math.hypot(fx, fy)
+            state = state_at_release(law, state_of(law, b), math.hypot(vx, vy))
             friction = resistance(
-                law, state_at_release(law), 0.5 * force, -0.5, blocks.static[b], blocks.dynamic[b]
+                law, state, 0.5 * force, -0.5, blocks.static[b], blocks.dynamic[b]
             )
             left = 1.0 - friction / force
             if math.hypot(vx - left * fx, vy - left * fy) <= _FROM_REST * force:
@@ -271,7 +273,9 @@ def place_releases(blocks, law, rows, released, count, constants, k):
         row, x = released.row[m], released.x[m]
         b = index_of(row, x, constants.grid)
         _reconstruct_displacements(blocks, law, released, row, x, constants, slider)
-        threshold = threshold_of(law, blocks.static[b], blocks.dynamic[b])
+        moved = math.hypot(released.ax[m], released.ay[m])
+        state = state_at_release(law, state_of(law, b), moved)
+        threshold = threshold_of(law, state, blocks.static[b], blocks.dynamic[b])
         released.theta[m] = release_theta(released, threshold, springs, slider, slide)
     for m in range(count):
         row, theta = released.row[m], released.theta[m]
@@ -291,7 +295,7 @@ def place_releases(blocks, law, rows, released, count, constants, k):
         rows.y[row] += further * ay
         a2 = ax * ax + ay * ay
         a1 = math.sqrt(a2)
-        state = state_at_release(law)
+        state = state_at_release(law, state_of(law, b), a1)
         friction = resistance(law, state, 0.5 * a1, 0.0, blocks.static[b], blocks.dynamic[b])
         store_state(law, b, state, (slip + speed) * a1, True)
         work = friction * a1 * (slip + 0.5 * (theta - 0.5))  # along s + (θ_ε - 1/2) a/2
@@ -302,26 +306,27 @@ def place_releases(blocks, law, rows, released, count, constants, k):
 
 
 @kernel
-def _steps_at_rest(static, s, own, i, n, pull):
+def _steps_at_rest(blocks, law, s, own, i, n, pull):
     """Lower bound on the steps for which a row stays at rest if its neighbours do.
 
     As long as no block moves, only the slider changes F_mot of a block, by `pull` per step.
     """
     least = np.inf
     for x in range(ONE, n + ONE):
-        fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
-        least = min(least, static[i + x] - math.sqrt(fx * fx + fy * fy))
+        b, fx, fy = i + x, s[FORCE_X + own + x], s[FORCE_Y + own + x]
+        strength = strength_of(law, state_of(law, b), blocks.static[b], blocks.dynamic[b])
+        least = min(least, strength - math.sqrt(fx * fx + fy * fy))
     return np.int64(min((1.0 - _SLACK) * least / pull, _FOREVER))
 
 
 @kernel
-def _settle_rows(blocks, rows, band, s, pull, now):
+def _settle_rows(blocks, law, rows, band, s, pull, now):
     """Estimate for how long rows at rest stay so, and close the edges of all rows of a band."""
     for row in range(band.start, band.stop):
         i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
         computed = rows.in_contact[row] and rows.awake[row]
         if computed and not rows.sliding[row + ONE] and rows.due[row] <= now:
-            steps = _steps_at_rest(blocks.static, s, own, i, band.grid.n_x, pull)
+            steps = _steps_at_rest(blocks, law, s, own, i, band.grid.n_x, pull)
             rows.due[row] = now + steps
         close_edge(blocks.ux, blocks.uy, row, band.grid)
 
@@ -340,7 +345,7 @@ def move_band(blocks, law, peak, rows, released, count, band, s, constants, now)
         blocks, law, rows, released, count, band, s, one_row(s), a, now
     )
     _move_free_rows(blocks, rows, band, s, a)
-    _settle_rows(blocks, rows, band, s, pull, now)
+    _settle_rows(blocks, law, rows, band, s, pull, now)
     return switches, count
 
 
