@@ -9,7 +9,7 @@ from springblock.solver.springs import Q_MAX, Q_MIN, SERIES_RANGE, g, series
 from springs import spring_forces
 
 EPS = np.finfo(float).eps
-SERIES_ERROR = 4e-13  #: largest relative error of the polynomial
+SERIES_ERROR = 1.7e-9  #: largest relative error of the polynomial
 N = 5
 
 

@@ -52,6 +52,9 @@ FILES = {
         mu_static=0.0,
     ),
 }
+#: Bound on differences in one step: the polynomial of the springs has a relative error of 1.7e-9,
+#: and springs change velocities by more than their values while blocks turn.
+SERIES_ERROR = 1e-7
 #: Laws whose blocks keep a state.
 KEEPING = {"slip", "no healing", *FILES}
 SURFACES = {
@@ -115,8 +118,8 @@ class Kernel:
         )
 
 
-def assert_same(found, exact, scale, name, rounding=1e-12):
-    np.testing.assert_allclose(found, exact, rtol=0.0, atol=rounding * scale, err_msg=name)
+def assert_same(found, exact, scale, name, error=SERIES_ERROR):
+    np.testing.assert_allclose(found, exact, rtol=0.0, atol=error * scale, err_msg=name)
 
 
 #: All surfaces under Coulomb's law, and all laws on grooves.
@@ -140,20 +143,20 @@ def test_each_step_is_that_of_the_specification(integrator, law, name, periodic)
         exact = advance(model, replace(here, switches=0, work=0.0, heat=0.0, path=0.0))
         here = kernel.advance()
         speed = max(np.abs(here.v).max(), material.slider_velocity)
-        assert_same(here.u, exact.u, STEP * speed, "displacement", 1e-11)
-        assert_same(here.v, exact.v, speed, "velocity", 1e-11)
+        assert_same(here.u, exact.u, STEP * speed, "displacement")
+        assert_same(here.v, exact.v, speed, "velocity")
         np.testing.assert_array_equal(here.v == 0.0, exact.v == 0.0)
         np.testing.assert_array_equal(np.isinf(here.t_det), np.isinf(exact.t_det))
         known = np.isfinite(here.t_det)
-        assert_same(here.t_det[known], exact.t_det[known], STEP, "t_det", 1e-8)
+        assert_same(here.t_det[known], exact.t_det[known], STEP, "t_det")
         for name in here.memory if law in KEEPING else ():
             found, kept = here.memory[name][contact], exact.memory[name][contact]
-            assert_same(found, kept, max(abs(kept).max(), 1e-300), name, 1e-11)
+            assert_same(found, kept, max(abs(kept).max(), 1e-300), name)
         assert here.switches == exact.switches
         power = model.load.max() * speed * STEP * contact.size
         assert_same(here.work, exact.work, power, "work")
-        assert_same(here.heat, exact.heat, power, "heat", 1e-11)
-        assert_same(here.path, exact.path, STEP * speed**2 * contact.size, "damping", 1e-11)
+        assert_same(here.heat, exact.heat, power, "heat")
+        assert_same(here.path, exact.path, STEP * speed**2 * contact.size, "damping")
         switches += here.switches
     assert np.isfinite(here.t_det[contact]).mean() > 0.9
     if law != "rate and state":
@@ -184,7 +187,7 @@ def test_whole_runs_are_those_of_the_specification(integrator, periodic, surface
         np.testing.assert_allclose(run.t_det[known], last.t_det[known], rtol=0.0, atol=1e-6 * STEP)
         switches = [each.switches for each in states]
         np.testing.assert_array_equal(np.cumsum(run.switches)[1:], switches)
-        np.testing.assert_allclose(run.force[1:], np.hypot(*pull.T), rtol=1e-9)
+        np.testing.assert_allclose(run.force[1:], np.hypot(*pull.T), rtol=SERIES_ERROR)
         for found, exact in ((run.displacement, last.u), (run.velocity, velocity)):
-            np.testing.assert_allclose(found, exact, rtol=0.0, atol=1e-9 * abs(exact).max())
-        np.testing.assert_allclose(run.energy.friction, heat, rtol=1e-9)
+            assert_same(found, exact, abs(exact).max(), "motion")
+        np.testing.assert_allclose(run.energy.friction, heat, rtol=SERIES_ERROR)

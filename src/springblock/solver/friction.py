@@ -8,9 +8,9 @@ again (section 2 of the paper). Other laws replace mu_d F_n, see `laws`.
 
 import math
 
+import numpy as np
 from numba import njit
 
-from springblock.solver.inverse_root import inverse_root
 from springblock.solver.laws import end_weight, resistance, state_of, store_state, strength_of
 
 
@@ -47,7 +47,7 @@ def apply_friction(law, b, wx, wy, vx, vy, fx, fy, static, dynamic):
     strength = strength_of(law, state, static, dynamic)
     held = (w_dot_v <= 0.0) & (fx * fx + fy * fy <= strength * strength)
     mean_x, mean_y = (wx + vx, wy + vy) if forwards else (wx, wy)
-    lost = friction * inverse_root(mean_x * mean_x + mean_y * mean_y)
+    lost = friction / np.sqrt(mean_x * mean_x + mean_y * mean_y)  # NaN or infinite at rest
     slides = (wx * wx + wy * wy > friction * friction) & (not held)
     new_x, new_y = wx - lost * mean_x, wy - lost * mean_y
     new_x, new_y = new_x if slides else 0.0, new_y if slides else 0.0

@@ -32,10 +32,10 @@ from springblock.model.numbers import Array
 from springblock.model.pattern import MAX_BLOCKS
 from springblock.solver.compilation import kernel
 
-#: Largest |q| for which g is computed by the polynomial, whose relative error, 4e-13, equals the
-#: rounding error of a strain of 5e-4 computed from displacements of size l.
+#: Largest |q| for which g is computed by the polynomial. Its relative error is at most 1.7e-9, five
+#: orders of magnitude below that of the default step.
 SERIES_RANGE = 1.0 / 32.0
-SERIES_DEGREE = 6
+SERIES_DEGREE = 4
 
 #: A spring may have 1/2 to 2 times its rest length: -3/4 < q < 3.
 Q_MIN, Q_MAX = -0.75, 3.0
@@ -153,10 +153,8 @@ def _horner(p, q, c):
 @njit(inline="always")
 def _series(q, c):
     """Return kappa g(q) of four springs by the polynomial with coefficients c."""
-    c0, c1, c2, c3, c4, c5, c6 = c
-    p = _horner((c6, c6, c6, c6), q, c5)
-    p = _horner(p, q, c4)
-    p = _horner(p, q, c3)
+    c0, c1, c2, c3, c4 = c
+    p = _horner((c4, c4, c4, c4), q, c3)
     p = _horner(p, q, c2)
     p = _horner(p, q, c1)
     return _horner(p, q, c0)
@@ -218,6 +216,11 @@ def _end_of_diagonals(row, grid):
 
 
 @njit(inline="always")
+def _is_small(q):
+    return abs(q) <= SERIES_RANGE  # False for NaN
+
+
+@njit(inline="always")
 def _pulls_by_series(ux, uy, row, band, columns, s, c):
     """Store the spring forces kappa q g(q) (e + d) of a row; return whether all q are in range.
 
@@ -229,8 +232,7 @@ def _pulls_by_series(ux, uy, row, band, columns, s, c):
         relative = _relative_displacements(ux, uy, i, j, x)
         q = _stretch(relative)
         p = _series(q, c)
-        q_squared = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
-        within = within & (q_squared <= SERIES_RANGE**2)  # False for NaN
+        within = within & _is_small(q[0]) & _is_small(q[1]) & _is_small(q[2]) & _is_small(q[3])
         ne, nw = (q[2] * p[2], q[3] * p[3]) if x < edge else (0.0, 0.0)
         _store_pulls(s, x, relative, q[0] * p[0], q[1] * p[1], ne, nw)
     return within
