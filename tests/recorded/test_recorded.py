@@ -35,7 +35,7 @@ from plotting.test_every_figure import DRAWINGS, drawn
 from springblock import Pattern, Setup, Surface
 from springblock.accuracy import production, work_precision
 from springblock.accuracy.conventions import SAMPLE_INTERVAL, SCENES
-from springblock.accuracy.page import page as errors
+from springblock.accuracy.page import values
 from springblock.accuracy.solutions import Small
 from springblock.accuracy.stability import all_cases
 from springblock.beyond.page import QUESTIONS
@@ -52,6 +52,7 @@ from springblock.io.schemas import SUMMARY
 from springblock.mechanism.page import page as mechanism
 from springblock.mechanism.surfaces import TABLES
 from springblock.model.scene import Scene
+from springblock.pages import rendered
 from springblock.simulation.fields import Fields
 from springblock.study import configuration as study
 from studies import ROOT, TINY, Study
@@ -119,7 +120,7 @@ def accuracy() -> str:
     realisations = [{"energy_error": 1e-6 * each} for each in (-3.0, 1.0, 2.0, 700.0)]
     columns = ("value", "scale", "deviation", "bias", "bias_error", "ci_low", "ci_high")
     whole = uneven(precision.production_rows(), *columns)
-    return errors(single, stability, realisations, whole)
+    return rendered("accuracy.md", **values(single, stability, realisations, whole))
 
 
 def made_up(surface: Surface, step: float, sample_interval: float, order: float) -> Any:

@@ -1,135 +1,102 @@
-"""The page on numerical errors, from its templates and the tables."""
+"""Values and tables of the page on numerical errors, whose sentences are in `pages/accuracy.md`."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import product
-from math import floor, log10, sqrt
-from pathlib import Path
+from math import sqrt
 from statistics import median
+from typing import Any, NamedTuple
 
+from springblock.accuracy import conventions
 from springblock.accuracy.conventions import (
     DELAY,
-    ENERGY_TOLERANCE,
     ENSEMBLE,
-    HORIZON_NUDGE,
     LENGTH,
     MEANS,
     ORDERED,
-    OUT_OF_LINE,
     PAPER_STEP,
     PLAIN,
-    SAMPLE_INTERVAL,
     SCENES,
     half_width,
 )
-from springblock.io.rows import Row, listed, markdown_table, select
+from springblock.analysis.statistics import Interval
+from springblock.io.rows import Row, select
 from springblock.model.defaults import STEP
 from springblock.model.material import Material
 
-Cases = dict[tuple[str, str], list[Row]]  #: rows at each step, by quantity and scene
 #: Realisations of a scene in the study, by quantity; the decay length needs more.
 STUDY_SEEDS = {"static_friction": ENSEMBLE, DELAY: ENSEMBLE, LENGTH: 60}
 
-_PAGE = Path(__file__).with_name("page.md")
-
-_RECOMMENDATION = """Use the default: {coarse:.0e} s takes {share:.0f} % of its CPU time, but
-changes t_avg by up to {change:.2f} %, which is {errors:.1f} standard errors of a mean over
-{ensemble} seeds."""
-
-#: Names of quantities that are not called by their symbol.
-_NAMES = {
-    "force": "force before t_max (largest error of each run)",
-    "static_friction": "static friction",
-    "t_det before horizon": "t_det before the horizon",
-}
-_UNITS = {"1": ("", 1.0), "s": (" (µs)", 1e6), "blocks": (" (blocks)", 1.0)}
-_QUANTITIES = (*MEANS, DELAY, LENGTH)
-_SINGLE = ("force", *MEANS, "t_det before horizon")
-_LIMIT = 2.0 / Material().omega_max  #: s, stability limit of the leapfrog without damping
 _COARSE = 2.0 * STEP  #: the alternative to the default
-#: Fields of the template that do not depend on the tables.
-_KNOWN = {
-    "step": STEP,
-    "coarse": _COARSE,
-    "paper": PAPER_STEP,
-    "limit": _LIMIT,
-    "coarse_margin": _LIMIT / _COARSE,
-    "margin": _LIMIT / STEP,
-    "nudge": HORIZON_NUDGE,
-    "ensemble": ENSEMBLE,
-    "length_ensemble": STUDY_SEEDS[LENGTH],
-    "tolerance": ENERGY_TOLERANCE,
-    "out_of_line": OUT_OF_LINE,
-    "sample_interval": SAMPLE_INTERVAL,
-}
+_SINGLE = ("force", *MEANS, "t_det before horizon")
+_SCALES = {"s": 1e6}  #: from the units of the table to those of the page
 _PERCENT = 100.0
 
 
-def page(
+class Errors(NamedTuple):
+    """Errors of a quantity of one scene at the default step; all but the value in percent."""
+
+    quantity: str
+    scene: str
+    value: Interval
+    numerical: float  #: largest bias, in the unit of the value
+    bias: Interval
+    finest: float  #: largest bias of the finest step
+    largest: float  #: far end of the bias plus the finest step's
+    scatter: float  #: standard error of the study's mean
+    cost: float  #: CPU time of the double step over that of the default
+    change: float  #: by which the double step changes the quantity
+
+
+def values(
     precision: list[Row], stability: list[Row], realisations: list[Row], production: list[Row]
-) -> str:
-    """Fill in the page from the rows of the tables."""
+) -> dict[str, Any]:
+    """Return what the template names, from the rows of the tables."""
     single = select(precision, comparison="reference")
     leapfrog = select(single, integrator="leapfrog")
     default = select(leapfrog, step=STEP)
     finest_single = select(leapfrog, step=min(row["step"] for row in leapfrog))
-    plain = select(single, integrator=PLAIN)
     residuals = [abs(row["energy_error"]) for row in realisations]
-    finest, following, *_, coarsest = sorted({row["step"] for row in production})
-    flat = select(leapfrog, scene="flat", step=finest)
-    missed = {row["quantity"]: row["error"] for row in flat}
-    cases = measured(production, (*MEANS, LENGTH))
-    means = measured(production, MEANS)
-    return _PAGE.read_text(encoding="utf-8").format(
-        **_KNOWN,
-        biases=_largest(largest_bias, cases),
-        errors=_largest(_scatter, cases),
-        recommendation=_recommendation(measured(production, ("t_avg",)).values()),
-        n_blocks=production[0]["n_blocks"],
-        seeds=min(row["realisations"] for row in production),
-        finest=finest,
-        following=following,
-        steps=_steps(means),
-        flat_blocks=flat[0]["n_blocks"],
-        flat_friction=missed["static_friction"],
-        flat_t_avg=missed["t_avg"],
-        values=_by_scene("value", _QUANTITIES, production, _value),
-        bias_table=_by_scene("bias", _QUANTITIES, production, _bias),
-        singles=_by_scene("relative error", _SINGLE, default, _error),
-        orders=_by_scene("order", ORDERED, select(precision, comparison="order"), _orders),
-        finest_single=finest_single[0]["step"],
-        floor=max(row["error"] for row in finest_single if row["quantity"] in ORDERED),
-        plain=_static_friction(select(plain, step=PAPER_STEP)),
-        plain_twice=_static_friction(select(plain, step=2.0 * PAPER_STEP)),
-        single_blocks=_ends("n_blocks", default),
-        single_seeds=min(row["realisations"] for row in default),
-        reached=listed([_runs(row) for row in select(default, quantity="horizon reached")]),
-        n_runs=len(residuals),
-        worst_energy=max(residuals),
-        median_energy=median(residuals),
-        n_cases=len(stability),
-        families=", ".join(sorted({row["family"] for row in stability})),
-        coarsest=coarsest,
-        coarse_bias=_PERCENT * max(abs(_relative(at(coarsest, case))) for case in means.values()),
-    )
-
-
-def measured(rows: Iterable[Row], quantities: Iterable[str]) -> Cases:
-    """Rows of the table `production`, finest step first, by quantity and scene that have any."""
-    ordered = sorted(rows, key=lambda row: row["step"])
-    keys = product(quantities, SCENES)
-    found = {key: select(ordered, quantity=key[0], scene=key[1]) for key in keys}
-    return {key: rows for key, rows in found.items() if rows}
-
-
-def at(step: float, rows: Iterable[Row]) -> Row:
-    """Return the one row of this step."""
-    (row,) = select(rows, step=step)
-    return row
-
-
-def far_end(row: Row) -> float:
-    """Far end of the 95 % interval of a bias, as a share of the quantity."""
-    return max(abs(row["ci_low"]), abs(row["ci_high"])) / float(row["scale"])
+    steps = sorted({row["step"] for row in production})
+    flat = select(leapfrog, scene="flat", step=steps[0])
+    found = [_errors(rows) for rows in _cases(production)]
+    return {
+        "known": conventions,
+        "step": STEP,
+        "coarse": _COARSE,
+        "limit": 2.0 / Material().omega_max,  # s, of the leapfrog without damping
+        "length_ensemble": STUDY_SEEDS[LENGTH],
+        "n_blocks": production[0]["n_blocks"],
+        "seeds": min(row["realisations"] for row in production),
+        "steps": steps,
+        "quantities": [*MEANS, DELAY, LENGTH],
+        "errors": {(each.quantity, each.scene): each for each in found},
+        "double": max(
+            (each for each in found if each.quantity == "t_avg"),
+            key=lambda each: each.change / each.scatter,
+        ),
+        "of_steps": [_of_step(select(production, step=step)) for step in reversed(steps)],
+        "flat": {row["quantity"]: row["error"] for row in flat},
+        "flat_blocks": flat[0]["n_blocks"],
+        "singles": {name: _by_scene(default, name) for name in _SINGLE},
+        "single_blocks": sorted(row["n_blocks"] for row in default),
+        "single_seeds": min(row["realisations"] for row in default),
+        "reached": select(default, quantity="horizon reached"),
+        "finest_single": finest_single[0]["step"],
+        "floor": max(row["error"] for row in finest_single if row["quantity"] in ORDERED),
+        "orders": {
+            (row["quantity"], row["scene"], row["integrator"]): _interval(row, "error")
+            for row in select(precision, comparison="order")
+        },
+        "plain": [
+            _by_scene(select(single, integrator=PLAIN, step=step), "static_friction")
+            for step in (PAPER_STEP, 2.0 * PAPER_STEP)
+        ],
+        "n_runs": len(residuals),
+        "worst_energy": max(residuals),
+        "median_energy": median(residuals),
+        "stability": stability,
+        "families": sorted({row["family"] for row in stability}),
+    }
 
 
 def finest_bias(rows: Iterable[Row]) -> float:
@@ -139,130 +106,65 @@ def finest_bias(rows: Iterable[Row]) -> float:
     p = 1, the lower bound of orders across events, and the far end of the 95 % interval.
     """
     finest, following = sorted(rows, key=lambda row: row["step"])[:2]
-    return far_end(following) / (following["step"] / finest["step"] - 1.0)
+    return _far_end(following) / (following["step"] / finest["step"] - 1.0)
 
 
-def largest_bias(rows: Sequence[Row]) -> float:
-    """Far end of the interval of the default's bias plus the finest step's, as a share."""
-    return far_end(at(STEP, rows)) + finest_bias(rows)
+def _cases(production: Sequence[Row]) -> Iterable[list[Row]]:
+    """Yield the rows of each quantity on each scene that has it."""
+    for quantity, scene in product((*MEANS, DELAY, LENGTH), SCENES):
+        if rows := select(production, quantity=quantity, scene=scene):
+            yield rows
 
 
-def _relative(row: Row) -> float:
-    """Return the bias as a share of the quantity."""
-    return float(row["bias"] / row["scale"])
-
-
-def _largest(share: Callable[[list[Row]], float], cases: Cases) -> str:
-    """Write the largest share of each quantity with its name."""
-    most: dict[str, float] = {}
-    for (quantity, _), case in cases.items():
-        name = _name(quantity)
-        most[name] = max(most.get(name, 0.0), share(case))
-    return ", ".join(f"{_PERCENT * number:.2f} % ({name})" for name, number in most.items())
-
-
-def _recommendation(cases: Iterable[list[Row]]) -> str:
-    """Say what the double step saves, and by how much it changes a quantity, given by scene."""
-    changes, seconds = {}, []
-    for case in cases:
-        coarse, default = at(_COARSE, case), at(STEP, case)
-        change = abs(_relative(coarse) - _relative(default))
-        changes[change / _scatter(case)] = change
-        seconds.append((default["cpu_seconds"], coarse["cpu_seconds"]))
-    errors, (longest, shorter) = max(changes), max(seconds)
-    shown = {"share": shorter / longest, "change": changes[errors]}
-    percent = {name: _PERCENT * share for name, share in shown.items()}
-    return _RECOMMENDATION.format(errors=errors, **percent, **_KNOWN)
-
-
-def _steps(means: Cases) -> str:
-    """Tabulate CPU time and largest biases, a line for each step, coarsest first."""
-    lines = []
-    for step in sorted({row["step"] for case in means.values() for row in case}, reverse=True):
-        rows = [at(step, case) for case in means.values()]
-        by_quantity = [select(rows, quantity=name) for name in MEANS]
-        worst = [max(each, key=lambda row: abs(_relative(row))) for each in by_quantity]
-        name = f"**{step:.0e}**, default" if step == STEP else f"{step:.0e}"
-        seconds = max(row["cpu_seconds"] for row in rows)
-        lines.append([name, f"{seconds:.2g}", *map(_interval, worst)])
-    lines.append([f"error of {ENSEMBLE} seeds", ""])
-    for name in MEANS:
-        errors = [_PERCENT * _scatter(means[key]) for key in means if key[0] == name]
-        lines[-1].append(f"{min(errors):.2f} to {max(errors):.2f}")
-    return markdown_table(["step (s)", "CPU seconds", *map(_name, MEANS)], lines)
-
-
-def _interval(row: Row) -> str:
-    """Return a bias with its interval, in percent; 0 at the finest step."""
-    bias, low, high = (_PERCENT / row["scale"] * row[key] for key in ("bias", "ci_low", "ci_high"))
-    return f"{bias:+.3f} [{low:+.3f}, {high:+.3f}]" if low < high else "0"
-
-
-def _by_scene(
-    heading: str, quantities: Iterable[str], rows: Sequence[Row], text: Callable[..., str]
-) -> str:
-    """Return a table with `text` of the rows of each quantity (lines) and scene (columns)."""
-    lines = []
-    for quantity in quantities:
-        cells = [select(rows, scene=scene, quantity=quantity) for scene in SCENES]
-        said = [text(*cell) if cell else "" for cell in cells]
-        lines.append([_name(quantity), *said])
-    return markdown_table([heading, *SCENES], lines)
-
-
-def _name(quantity: str) -> str:
-    return _NAMES.get(quantity, quantity)
-
-
-def _runs(row: Row) -> str:
-    """Write how many runs of a scene reach the horizon; the error is the root of their share."""
-    return (
-        f"{row['error'] ** 2 * row['realisations']:.0f} of {row['realisations']} ({row['scene']})"
+def _errors(rows: Sequence[Row]) -> Errors:
+    """Return the errors of one quantity of one scene from its rows at all steps."""
+    (row,), (coarse,) = select(rows, step=STEP), select(rows, step=_COARSE)
+    scale, unit = row["scale"], _SCALES.get(row["unit"], 1.0)
+    half = half_width(row["deviation"], row["realisations"])
+    finest = finest_bias(rows)
+    largest = _far_end(row) + finest
+    seeds = STUDY_SEEDS.get(row["quantity"], ENSEMBLE)
+    return Errors(
+        quantity=row["quantity"],
+        scene=row["scene"],
+        value=Interval(*(unit * (row["value"] + each) for each in (0.0, -half, half))),
+        numerical=unit * scale * largest,
+        bias=_bias(row),
+        finest=_PERCENT * finest,
+        largest=_PERCENT * largest,
+        scatter=_PERCENT * row["deviation"] / scale / sqrt(seeds),
+        cost=coarse["cpu_seconds"] / row["cpu_seconds"],
+        change=float(abs(_bias(coarse).mean - _bias(row).mean)),
     )
 
 
-def _error(row: Row) -> str:
-    """Format an error; 0 where runs agree to every digit."""
-    return f"{row['error']:.1e}" if row["error"] else "0"
+def _of_step(rows: Sequence[Row]) -> dict[str, Any]:
+    """Return the CPU time of a step and its largest bias of each quantity."""
+    worst = [
+        max(select(rows, quantity=name), key=lambda row: abs(row["bias"] / row["scale"]))
+        for name in MEANS
+    ]
+    return {
+        "step": rows[0]["step"],
+        "seconds": max(row["cpu_seconds"] for row in rows),
+        "biases": [_bias(row) for row in worst],
+    }
 
 
-def _orders(*rows: Row) -> str:
-    """Return the orders of both integrators with their intervals."""
-    each = (select(rows, integrator=name)[0] for name in ("leapfrog", "rk4"))
-    return "; ".join(f"{r['error']:.1f} [{r['ci_low']:.1f}, {r['ci_high']:.1f}]" for r in each)
+def _bias(row: Row) -> Interval:
+    """Return a bias with its interval, in percent."""
+    return Interval(*(_PERCENT * each / row["scale"] for each in _interval(row, "bias")))
 
 
-def _static_friction(rows: Sequence[Row]) -> str:
-    """Return the error of static friction on each scene, in percent."""
-    errors = {row["scene"]: row["error"] for row in select(rows, quantity="static_friction")}
-    return ", ".join(f"{_PERCENT * errors[scene]:.1f} % ({scene})" for scene in SCENES)
+def _interval(row: Row, name: str) -> Interval:
+    return Interval(row[name], row["ci_low"], row["ci_high"])
 
 
-def _ends(name: str, rows: Sequence[Row]) -> tuple[int, int]:
-    """Return the smallest and the largest value of a column."""
-    values = [row[name] for row in rows]
-    return min(values), max(values)
+def _far_end(row: Row) -> float:
+    """Far end of the 95 % interval of a bias, as a share of the quantity."""
+    return max(abs(row["ci_low"]), abs(row["ci_high"])) / float(row["scale"])
 
 
-def _scatter(rows: Sequence[Row]) -> float:
-    """Standard error of the study's mean, as a share."""
-    row = at(STEP, rows)
-    seeds = STUDY_SEEDS.get(row["quantity"], ENSEMBLE)
-    return float(row["deviation"] / row["scale"] / sqrt(seeds))
-
-
-def _value(*rows: Row) -> str:
-    """Return value ± statistical ± numerical error, to two digits of the statistical error."""
-    row = at(STEP, rows)
-    unit, factor = _UNITS[row["unit"]]
-    value, scale = factor * row["value"], factor * row["scale"]
-    statistical = factor * half_width(row["deviation"], row["realisations"])
-    places = max(0, 1 - floor(log10(statistical)))
-    numbers = (value, statistical, scale * largest_bias(rows))
-    return " ± ".join(f"{number:.{places}f}" for number in numbers) + unit
-
-
-def _bias(*rows: Row) -> str:
-    """Return bias, interval, bias of the finest step and error of the mean, in percent."""
-    finest, error = _PERCENT * finest_bias(rows), _PERCENT * _scatter(rows)
-    return f"{_interval(at(STEP, rows))} ± {finest:.3f} ({error:.2f})"
+def _by_scene(rows: Iterable[Row], quantity: str) -> dict[str, float]:
+    """Return the errors of a quantity by scene."""
+    return {row["scene"]: row["error"] for row in select(rows, quantity=quantity)}

@@ -109,14 +109,17 @@ def _collect(tables: tuple[Path, ...], configuration: str | None, output: Path) 
 
 def _page(name: str, files: tuple[Path, ...]) -> str:
     """Return the text of a page."""
+    if name == "accuracy":
+        from springblock.accuracy.page import values
+        from springblock.pages import rendered  # needs the packages of the study
+
+        tables = [load_as(kind, file) for kind, file in zip(_ACCURACY, files, strict=True)]
+        return rendered("accuracy.md", **values(*(table.to_pylist() for table in tables)))
     page = resolve_name(f"springblock.{name}.page:page")
     if name == "beyond":
         return page(by_scene(read_records(files)))
-    kinds = _ACCURACY if name == "accuracy" else TABLES
-    tables = [load_as(kind, file) for kind, file in zip(kinds, files, strict=False)]
-    if name == "mechanism":
-        return page(*(table.to_pandas() for table in tables))
-    return page(*(table.to_pylist() for table in tables))
+    tables = [load_as(kind, file) for kind, file in zip(TABLES, files, strict=True)]
+    return page(*(table.to_pandas() for table in tables))
 
 
 @click.command("report")
