@@ -39,7 +39,7 @@ rule all:
         rules.aggregate.output,
         CORRELATED,
         rules.correlations.input,
-        rules.means.output if OWN else rules.claims.output,
+        rules.means.output if OWN else [rules.claims_table.output, rules.claims.output],
         rules.figures.input,
         FILMED,
         rules.report.output,

@@ -23,7 +23,7 @@ ROUNDS = 10
 def start(study: Study, *options: str) -> subprocess.Popen[str]:
     """Start the quick study on one core."""
     options = (*options, "--cores", "1", "--quiet", "all")
-    targets = ("aggregate", "correlations", "claims")
+    targets = ("aggregate", "correlations", "claims_table")
     quick = ("config/quick.yaml",)
     return study.start(*options, configuration=quick, targets=targets, stdout=None, stderr=None)
 

@@ -12,42 +12,45 @@ from typing import Any
 
 _ROOT = Path(__file__).parent
 _PHYSICS = ("model", "solver", "simulation", "io")
-_PAGES = ("accuracy", "mechanism", "claims", "beyond")
+_STATEMENTS = ("model", "io", "analysis", "accuracy", "mechanism")
 
-#: Folders of the package that determine the results of each step of the study. The command line is
-#: not among them, since it only arranges, nor are descriptions of columns and the study's folder.
+#: Folders of the package whose code determines the results of each step of the study, and the files
+#: of words that a page consists of. The command line is not among them, since it only arranges,
+#: nor are descriptions of columns and the study's folder.
 STEPS: dict[str, tuple[str, ...]] = {
     "compile": ("solver",),
     "mask": ("model",),
     "simulate": _PHYSICS,
     "analyse": ("model", "io", "analysis"),
     "accuracy": (*_PHYSICS, "analysis", "accuracy"),
-    "claims": ("model", "io", "analysis", "accuracy", "mechanism", "claims"),
-    "beyond": ("model", "io", "analysis", "mechanism", "beyond"),
     "mechanism": (*_PHYSICS, "analysis", "mechanism"),
+    "claims": (*_STATEMENTS, "claims", "claims/statements.md"),
     "plot": ("model", "io", "analysis", "accuracy", "mechanism", "beyond", "plotting"),
-    "report": ("model", "io", "analysis", *_PAGES, "plotting", "report"),
+    "accuracy.md": ("model", "io", "analysis", "accuracy", "pages", "pages/accuracy.md"),
+    "mechanism.md": ("model", "io", "analysis", "mechanism", "mechanism/page.md"),
+    "claims.md": (*_STATEMENTS, "claims", "claims/*.md"),
+    "beyond.md": ("model", "io", "analysis", "mechanism", "beyond", "beyond/page.md"),
+    "report": (
+        *(*_STATEMENTS, "beyond", "claims", "plotting", "report"),
+        *("claims/*.md", "report/*.html", "report/*.css", "report/*.js"),
+    ),
 }
-#: Steps that write pages, on whose templates and data their results depend.
-_WRITING = {"claims", "beyond", "report"}
 #: Modules of descriptions alone.
 _DESCRIBING = {"schemas.py"}
-#: Folders whose docstrings are part of the results: the criteria of statements.
-_SAYING = {"claims"}
 
 
 @cache
 def digest(step: str) -> str:
     """Return the digest of the code of a step; 16 hexadecimal digits.
 
-    It does not depend on comments, layout, the text of `raise` and, but for `claims`, docstrings.
+    It does not depend on comments, layout, docstrings and the text of `raise`.
     """
-    return _short("".join(_of_folder(folder, step in _WRITING) for folder in STEPS[step]))
+    return _short("".join(map(_of, STEPS[step])))
 
 
 def digest_of(file: Path) -> str:
     """Return the digest of one module, likewise."""
-    return _short("\n".join(_skeleton(ast.parse(file.read_bytes()), docstrings=False)))
+    return _short("\n".join(_skeleton(ast.parse(file.read_bytes()))))
 
 
 def code_version(step: str) -> str:
@@ -66,35 +69,35 @@ def configuration_digest(configuration: Mapping[str, Any]) -> str:
 
 
 @cache
-def _of_folder(folder: str, templates: bool) -> str:
+def _of(part: str) -> str:
+    """Return the digest of the code in a folder, or of the words in files."""
+    if "." in part:
+        return _short("".join(file.read_text("utf-8") for file in sorted(_ROOT.glob(part))))
     texts = []
-    for file in sorted((_ROOT / folder).rglob("*")):
-        if file.suffix == ".py" and file.name not in _DESCRIBING:
-            texts += [file.name, *_skeleton(ast.parse(file.read_bytes()), folder in _SAYING)]
-        elif templates and file.suffix in (".html", ".css", ".js", ".md", ".csv"):
-            texts.append(file.read_text(encoding="utf-8"))
+    for file in sorted((_ROOT / part).rglob("*.py")):
+        if file.name not in _DESCRIBING:
+            texts += [file.name, *_skeleton(ast.parse(file.read_bytes()))]
     return _short("\n".join(texts))
 
 
-def _skeleton(node: Any, docstrings: bool) -> list[str]:
-    """Return the nodes of a syntax tree without their positions and without `raise` statements.
+def _skeleton(node: Any) -> list[str]:
+    """Return the nodes of a syntax tree without positions, docstrings and `raise` statements.
 
-    Docstrings are included only if `docstrings` is true. Nodes are listed, since nested generators
-    would pass each word on once per level of the tree.
+    Nodes are listed, since nested generators would pass each word on once per level of the tree.
     """
     if isinstance(node, list):
-        return list(chain.from_iterable(_skeleton(part, docstrings) for part in node))
+        return list(chain.from_iterable(map(_skeleton, node)))
     if not isinstance(node, ast.AST):
         return [repr(node)]
     if isinstance(node, ast.Raise):
         return ["Raise"]
-    if not docstrings and isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+    if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
         return []
     words = [type(node).__name__]
     for field in node._fields:
         value = getattr(node, field, None)
         if value is not None and value != []:
-            words += [field, *_skeleton(value, docstrings)]
+            words += [field, *_skeleton(value)]
     return words
 
 

@@ -12,7 +12,7 @@ from springblock.mechanism.surfaces import TABLES as PARTS
 from springblock.plotting.figures import FIGURES
 
 CONFIGURATION = ("--configuration", "0123")
-PAGE = ("--output", "{here}/a", "--page", "{here}/a.md")
+OUTPUT = ("--output", "{here}/a")
 
 
 def test_info_says_what_a_batch_holds_and_what_made_it(springblock, batch):
@@ -26,7 +26,7 @@ def test_info_says_what_a_batch_holds_and_what_made_it(springblock, batch):
     "words",
     [
         ("info", "{file}"),
-        ("claims", "{batch}", "--correlation", "{file}", *CONFIGURATION, *PAGE),
+        ("claims", "{batch}", "--correlation", "{file}", *CONFIGURATION, *OUTPUT),
     ],
     ids=lambda words: words[0],
 )
@@ -45,7 +45,10 @@ CLAIMED = ("correlation", "correlation-length", "work-precision")
     "words",
     [
         *(("figure", name, "{file}", "--output", "{here}/a.png") for name, _ in TABLES),
-        *(("claims", "{batch}", f"--{name}", "{file}", *CONFIGURATION, *PAGE) for name in CLAIMED),
+        *(
+            ("claims", "{batch}", f"--{name}", "{file}", *CONFIGURATION, *OUTPUT)
+            for name in CLAIMED
+        ),
         ("make", "accuracy", *["{file}"] * 4, "--output", "{here}/a.md"),
         ("make", "mechanism", *["{file}"] * len(PARTS), "--output", "{here}/a.md"),
         ("plot", "{file}", "--output", "{here}/a.png"),

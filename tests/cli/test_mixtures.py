@@ -6,17 +6,17 @@ import pytest
 FASTER = ("--material", "slider_velocity=1e-3")
 OUTPUT = ("--output", "{here}/a.png")
 CONFIGURATION = ("--configuration", "0123")
-PAGE = (*CONFIGURATION, "--output", "{here}/a", "--page", "{here}/a.md")
+TABLE = (*CONFIGURATION, "--output", "{here}/a")
 #: A command for each way to read files, here of two studies, 0 and 1.
 COMMANDS = {
     "aggregate": ("aggregate", "{batch0}", "{batch1}", *CONFIGURATION, "--output", "{here}/a"),
     "collect": ("make", "collect", "{c0}", "{c1}", "--output", "{here}/a"),
     "figure_6": ("figure", "figure_6", "{batch0}", "{batch1}", *OUTPUT),
     "figure_7": ("figure", "figure_7", "{c0}", "{l1}", *OUTPUT),
-    "claims, table": ("claims", "{batch0}", "--correlation", "{c1}", *PAGE),
+    "claims, table": ("claims", "{batch0}", "--correlation", "{c1}", *TABLE),
     "claims, tables": (
         *("claims", "{batch0}", "--correlation", "{c0}", "--correlation-length", "{l1}"),
-        *PAGE,
+        *TABLE,
     ),
 }
 PILLARS = ("--n-blocks", 12, "--n-p", 6, "--n-s", 6)

@@ -128,10 +128,8 @@ rule accuracy:
         mem_mb=400,
         runtime=5,
     params:
-        code=code("report"),
-        page="accuracy",
+        code=code("accuracy.md"),
     message:
         "Writing the page on errors"
     shell:
-        "springblock --code {params.code} make {params.page} {input:q} --output {output:q} "
-        "> {log:q} 2>&1"
+        "springblock --code {params.code} make accuracy {input:q} --output {output:q} > {log:q} 2>&1"

@@ -6,7 +6,7 @@ GROUPS_CLAIMED += ["loading", "scatter", "repetitions", "groove_lengths", "one_l
 GROUPS_CLAIMED += ["square", "ungrooved"]
 
 
-rule claims:
+rule claims_table:
     """Test the paper's statements."""
     input:
         batches=batches(ensembles(GROUPS_CLAIMED)),
@@ -18,12 +18,11 @@ rule claims:
         ],
         precision=rules.precision_table.output if config["accuracy"] else [],
     output:
-        table=f"{RESULTS}/tables/claims.parquet",
-        page=f"{RESULTS}/claims.md",
+        f"{RESULTS}/tables/claims.parquet",
     log:
-        f"{RESULTS}/logs/claims.log",
+        f"{RESULTS}/logs/claims_table.log",
     benchmark:
-        f"{RESULTS}/benchmarks/claims.tsv"
+        f"{RESULTS}/benchmarks/claims_table.tsv"
     resources:
         mem_mb=6000,
         runtime=10,
@@ -38,11 +37,31 @@ rule claims:
         "Testing the paper's statements"
     shell:
         "springblock --code {params.code} claims {input.batches:q} {params.tables} "
-        "--configuration {params.configuration} --output {output.table:q} "
-        "--page {output.page:q} > {log:q} 2>&1"
+        "--configuration {params.configuration} --output {output:q} > {log:q} 2>&1"
 
 
-use rule accuracy as beyond with:
+rule claims:
+    """Write the page on the paper's statements."""
+    input:
+        rules.claims_table.output,
+    output:
+        f"{RESULTS}/claims.md",
+    log:
+        f"{RESULTS}/logs/claims.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/claims.tsv"
+    resources:
+        mem_mb=400,
+        runtime=5,
+    params:
+        code=code("claims.md"),
+    message:
+        "Writing the page on the paper's statements"
+    shell:
+        "springblock --code {params.code} make claims {input:q} --output {output:q} > {log:q} 2>&1"
+
+
+rule beyond:
     """Answer questions beyond the paper."""
     input:
         batches(ensembles([*GROUPS_CLAIMED, *GROUPS_BEYOND])),
@@ -56,7 +75,8 @@ use rule accuracy as beyond with:
         mem_mb=5000,
         runtime=10,
     params:
-        code=code("beyond"),
-        page="beyond",
+        code=code("beyond.md"),
     message:
         "Answering questions beyond the paper"
+    shell:
+        "springblock --code {params.code} make beyond {input:q} --output {output:q} > {log:q} 2>&1"

@@ -57,7 +57,7 @@ MODEL_PARTS = expand(
 )
 
 
-use rule accuracy as mechanism with:
+rule mechanism:
     """Explain the lowest friction and two load peaks."""
     input:
         expand(rules.mechanism_table.output, table=TABLES),
@@ -67,8 +67,12 @@ use rule accuracy as mechanism with:
         f"{RESULTS}/logs/mechanism.log",
     benchmark:
         f"{RESULTS}/benchmarks/mechanism.tsv"
+    resources:
+        mem_mb=400,
+        runtime=5,
     params:
-        code=code("report"),
-        page="mechanism",
+        code=code("mechanism.md"),
     message:
         "Explaining the lowest friction"
+    shell:
+        "springblock --code {params.code} make mechanism {input:q} --output {output:q} > {log:q} 2>&1"

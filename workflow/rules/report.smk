@@ -34,7 +34,7 @@ rule report:
     """Write the report: films, figures, pages and tables."""
     input:
         pictures=[file for file in rules.figures.input if file.endswith(".png")],
-        claims=[] if OWN else rules.claims.output,
+        claims=[] if OWN else [rules.claims_table.output, rules.claims.output],
         tables=[rules.aggregate.output, *rules.correlations.input],
         accuracy=(
             [

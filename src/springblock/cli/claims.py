@@ -1,4 +1,4 @@
-"""springblock claims: verdicts on the paper's statements, as a table and as a page."""
+"""springblock claims: verdicts on the paper's statements."""
 
 from collections.abc import Iterable
 from functools import partial
@@ -8,10 +8,8 @@ from pathlib import Path
 import click
 
 from springblock.claims import CLAIMS
-from springblock.claims.page import page
 from springblock.claims.table import SCHEMA, gathered, rows
 from springblock.cli.options import INPUT, Output, code_version, load_as
-from springblock.files import write_text
 from springblock.io.parquet import load, refuse_mixture, rows_to_table, write
 from springblock.io.records import read_records
 from springblock.io.rows import Row
@@ -31,7 +29,6 @@ _files = partial(click.option, type=INPUT, multiple=True)
 @_files("--work-precision", help="Table `work_precision`. Can be repeated.")
 @click.option("--configuration", required=True, help="Digest of the study's configuration.")
 @click.option("--output", type=Output(".parquet"), required=True, help="Parquet file.")
-@click.option("--page", "text", type=Output(".md"), required=True, help="Markdown file.")
 def claims(
     batches: tuple[Path, ...],
     correlation: tuple[Path, ...],
@@ -39,7 +36,6 @@ def claims(
     work_precision: tuple[Path, ...],
     configuration: str,
     output: Path,
-    text: Path,
 ) -> None:
     """Test the paper's statements.
 
@@ -53,7 +49,5 @@ def claims(
         correlation_length=_rows("correlation_length", correlation_length),
         precision=_rows("work_precision", work_precision),
     )
-    table = rows(CLAIMS, evidence)
     origin = {"code_version": code_version("claims"), "configuration_digest": configuration}
-    write(rows_to_table(table, SCHEMA), output, origin)
-    write_text(text, page(table))
+    write(rows_to_table(rows(CLAIMS, evidence), SCHEMA), output, origin)

@@ -21,6 +21,7 @@ INPUTS = {
     **dict.fromkeys(MEASURED, ("no inputs", 0, 0)),
     "collect": ("tables of equal columns", 1, None),
     "accuracy": (f"the tables {', '.join(_ACCURACY)}", len(_ACCURACY), len(_ACCURACY)),
+    "claims": ("the table claims", 1, 1),
     "mechanism": (f"the tables {', '.join(TABLES)}", len(TABLES), len(TABLES)),
     "beyond": ("batches of realisations", 1, None),
 }
@@ -57,6 +58,7 @@ def make(
       collect            one table, from tables of equal columns made by the same code
       accuracy           page on errors, from the tables work_precision, stability,
                          realisations and production
+      claims             page on the paper's statements, from their table
       mechanism          page on static friction, from its tables
       beyond             page on questions beyond the paper, from batches
     """
@@ -118,6 +120,8 @@ def _page(name: str, files: tuple[Path, ...]) -> str:
     page = resolve_name(f"springblock.{name}.page:page")
     if name == "beyond":
         return page(by_scene(read_records(files)))
+    if name == "claims":
+        return page(load_as("claims", files[0]).to_pylist())
     tables = [load_as(kind, file) for kind, file in zip(TABLES, files, strict=True)]
     return page(*(table.to_pandas() for table in tables))
 
