@@ -27,6 +27,7 @@ full: setup
 docs: full
 	$(BIN)/springblock dictionary --output docs/tables.md
 	cp results/accuracy.md results/claims.md results/mechanism.md results/beyond.md results/figures/figure_6.png docs
+	$(BIN)/python -m springblock.claims.full_study results/tables/claims.parquet
 	$(BIN)/springblock simulate --n-blocks 120 --n-p 20 --n-s 20 --output results/front.parquet
 	$(BIN)/springblock animate results/front.parquet --output docs/front.gif
 

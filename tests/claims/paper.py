@@ -9,7 +9,7 @@ import numpy as np
 from springblock import draw_friction
 from springblock.analysis.statistics import pillar_ring
 from springblock.claims.rule import Evidence
-from springblock.claims.surfaces import edge, grooved_parts
+from springblock.claims.surfaces import edge, grooved_parts, pillars_of
 from springblock.io.records import Record
 from springblock.io.rows import Row
 from springblock.model.material import Material
@@ -135,11 +135,10 @@ def by_side(size: int, rng: np.random.Generator) -> np.ndarray:
 
 
 def grooved(scene: Scene) -> np.ndarray:
-    (y, x), size = scene.pattern.origins[0], scene.n_p
-    contact = scene.pattern.contact[y : y + size, x : x + size]
     if scene.direction != "x":
-        return np.where(edge(contact), 0.70, np.where(contact, 0.98, np.nan))
-    pillar = np.full((size, size), np.nan)
+        field = np.where(edge(scene.contact), 0.70, np.where(scene.contact, 0.98, np.nan))
+        return pillars_of(field, scene)[0]
+    pillar = np.full((scene.n_p, scene.n_p), np.nan)
     for late, mask in zip((0.55, 0.65, 0.70, 1.03), grooved_parts(scene).values(), strict=True):
         pillar[mask] = late
     return pillar

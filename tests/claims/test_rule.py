@@ -1,10 +1,10 @@
-"""The rule from intervals to verdicts, and what the table and the page make of it."""
+"""Statements as data, and the rule from intervals to verdicts."""
 
 import csv
 import math
 import re
 from collections import Counter
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
@@ -14,14 +14,14 @@ from scipy.stats import t
 from springblock import Material, compute_prelude
 from springblock.analysis.estimate import Estimate, Proportion
 from springblock.analysis.statistics import mean_interval, proportion_interval, students_t
-from springblock.claims import CLAIMS
-from springblock.claims import page as pages
-from springblock.claims.page import CHANGED, _clearness, page
-from springblock.claims.rule import Claim, Evidence, Finding, boundary, verdict
+from springblock.claims import STATEMENTS, full_study, statements
+from springblock.claims.rule import Case, Evidence, Finding, Statement, verdict
 from springblock.claims.stress import elastic_forces
-from springblock.claims.table import SCHEMA, rows
-from springblock.io.parquet import rows_to_table
+from springblock.claims.summary import Judged, _clearness, content
+from springblock.claims.table import CASE, SCHEMA, rows
+from springblock.io.parquet import rows_to_table, write
 from springblock.model.scene import Scene
+from springblock.pages import rendered
 
 INF = float("inf")
 ROOT = Path(__file__).parents[2]
@@ -30,7 +30,7 @@ REGISTER = ROOT / "docs/registration"
 
 def finding(low, high, claimed=(0.0, INF), n=10**6, **case):
     estimate = Estimate((low + high) / 2.0, low, high, n)
-    return Finding(case, "a difference", estimate, claimed, "tables/some: row", "s")
+    return Finding(Case(**case), "a difference", estimate, claimed, "tables/some: row", "s")
 
 
 HOLDS, FAILS, OPEN = (1.0, 2.0), (-2.0, -1.0), (-0.1, 0.2)
@@ -67,11 +67,13 @@ def test_an_interval_decides_by_where_it_lies(interval, claimed, outcome):
         ([], "not tested", "not tested", "not tested"),
     ],
 )
-def test_the_form_of_a_claim_says_what_its_cases_decide(intervals, universal, general, existential):
+def test_the_form_of_a_statement_says_what_its_cases_decide(
+    intervals, universal, general, existential
+):
     findings = [finding(*interval, n_p=i) for i, interval in enumerate(intervals)]
-    assert verdict("universal", findings)[0] == universal
-    assert verdict("general", findings)[0] == general
-    assert verdict("existential", findings)[0] == existential
+    found = [verdict(form, findings) for form in ("universal", "general", "existential")]
+    assert [each.word for each in found] == [universal, general, existential]
+    assert {each[1:] for each in found} == {(intervals.count(HOLDS), len(intervals))}
 
 
 @pytest.mark.parametrize(
@@ -84,14 +86,15 @@ def test_the_form_of_a_claim_says_what_its_cases_decide(intervals, universal, ge
     ],
 )
 def test_all_findings_of_a_case_must_hold_and_one_that_fails_decides_it(intervals, expected):
-    assert verdict("general", [finding(*each, n_p=6) for each in intervals])[0] == expected
+    found = verdict("general", [finding(*each, n_p=6) for each in intervals])
+    assert found == (expected, expected == "reproduced", 1)
 
 
 def test_a_verdict_needs_findings_that_hold_jointly():
     """Alone the interval lies above zero; as one of two, at 97.5 %, it does not."""
-    near = Finding({"n_p": 1}, "slope", Estimate(1.005, 0.01, 2.0, 20), (0.0, INF), "")
-    assert verdict("general", [near])[0] == "reproduced"
-    assert verdict("general", [near, replace(near, case={"n_p": 2})])[0] == "not settled"
+    near = Finding(Case(n_p=1), "slope", Estimate(1.005, 0.01, 2.0, 20), (0.0, INF), "")
+    assert verdict("general", [near]).word == "reproduced"
+    assert verdict("general", [near, replace(near, case=Case(n_p=2))]).word == "not settled"
 
 
 def test_many_findings_hold_together_as_often_as_one_does(rng):
@@ -144,103 +147,118 @@ def test_what_cannot_be_decided_needs_more_than_anyone_has():
 
 
 def test_what_has_no_scatter_is_decided_at_any_level():
-    exact = Finding({}, "", Estimate(0.1, 0.1, 0.1), (0.0, INF), "")
+    exact = Finding(Case(), "", Estimate(0.1, 0.1, 0.1), (0.0, INF), "")
     assert exact.outcome(1000) == "holds"
     assert Estimate(0.1, 0.1, 0.1).limits(1000) == (0.1, 0.1)
 
 
-def cases_of(outcomes, *keys):
-    """Cases from the values of their keys, each with its outcome."""
-    return [
-        (dict(zip(keys, values, strict=True)), outcome)
-        for outcome, several in outcomes.items()
-        for values in several
-    ]
+def with_findings(name: str, *findings: Finding) -> Statement:
+    """One of the statements, with these findings."""
+    statement = next(each for each in STATEMENTS if each.id == name)
+    return replace(statement, form="general", test=lambda _: findings)
 
 
-@pytest.mark.parametrize(
-    ("cases", "expected"),
-    [
-        (
-            cases_of(
-                {"holds": [(4,), (20,)], "fails": [(6,), (8,), (10,)], "open": [(60,)]}, "n_p"
-            ),
-            "It holds at n_p = 4 and 20; it fails at n_p = 6 to 10; it is open at n_p = 60.",
-        ),
-        (
-            cases_of({"holds": [(20, 1), (60, 2)], "fails": [(20, 2)]}, "n_p", "ring"),
-            "It holds at n_p = 20 for ring = 1 and at n_p = 60; it fails at n_p = 20 for ring = 2.",
-        ),
-        (
-            cases_of({"holds": [(4, "x"), (6, "x")], "fails": [(4, "y"), (6, "y")]}, "n_p", "side"),
-            "It holds on x; it fails on y.",  # by the one key that separates them
-        ),
-        (  # a limit stands where it can be read as that of one phrase only
-            cases_of({"holds": [(4, 1), (4, 2), (20, 1)], "fails": [(20, 2)]}, "n_p", "ring"),
-            "It holds at n_p = 20 for ring = 1 and at n_p = 4; it fails at n_p = 20 for ring = 2.",
-        ),
-        (cases_of({"holds": [("the core",)]}, "part"), ""),
-    ],
+GROWS = with_findings(
+    "growing_length", *(finding(*each, n_p=i) for i, each in enumerate([HOLDS, FAILS]))
 )
-def test_the_boundary_is_what_tells_the_cases_apart(cases, expected):
-    assert boundary(cases, "holds", "fails", "open") == expected
-
-
-@pytest.mark.parametrize(
-    ("form", "interval", "expected"),
-    [
-        ("general", HOLDS, "It holds for ring = 1; it fails for ring = 0."),
-        ("general", OPEN, "It fails for ring = 0; it is open for ring = 1."),  # may hold in part
-        ("universal", HOLDS, "It fails for ring = 0."),
-        ("existential", HOLDS, "It holds for ring = 1."),
-        ("existential", OPEN, "It is open for ring = 1."),
-    ],
-)
-def test_a_verdict_names_the_cases_that_decide_it(form, interval, expected):
-    assert verdict(form, [finding(*FAILS, ring=0), finding(*interval, ring=1)])[1] == expected
-
-
-def growing(intervals: list[tuple[float, float]], **more: int) -> Claim:
-    found = [finding(*interval, n_p=i, **more) for i, interval in enumerate(intervals)]
-    return Claim("It grows", "3.2", "general", "It grows.", 1, lambda _: found)
-
-
-SHRINKS = Claim("It shrinks", "3.3", "universal", "It shrinks.", 1, lambda _: [])
-SOME = [growing([HOLDS]), SHRINKS]
+MISSING = with_findings("rapid_but_smooth")
 
 
 def test_the_table_has_a_row_for_each_finding_and_one_for_what_is_missing():
-    first, second = rows_to_table(rows(SOME, Evidence()), SCHEMA).to_pylist()
+    first, second, third = rows_to_table(rows([GROWS, MISSING], Evidence()), SCHEMA).to_pylist()
     assert (first["value"], first["ci_low"], first["ci_high"]) == (1.5, 1.0, 2.0)
-    assert (first["case"], first["outcome"], first["verdict"]) == ("n_p = 0", "holds", "reproduced")
-    assert second["verdict"] == "not tested"
-    assert second["rests_on"].startswith("missing: ")
-    assert np.isnan(second["value"])
+    assert (first["n_p"], second["n_p"], first["side"]) == (0, 1, None)
+    assert (first["outcome"], second["outcome"]) == ("holds", "fails")
+    assert (first["verdict"], first["holds"], first["cases"]) == ("reproduced in part", 1, 2)
+    assert (third["verdict"], third["holds"], third["cases"]) == ("not tested", 0, 0)
+    assert np.isnan(third["value"])
+
+
+def test_a_case_has_the_columns_of_the_table():
+    assert [field.name for field in fields(Case)] == [field.name for field in CASE]
+
+
+def judged(statement: Statement) -> Judged:
+    (part,) = content(rows([statement], Evidence()))["parts"]
+    return part
 
 
 @pytest.mark.parametrize(
-    ("claims", "expected"),
+    ("intervals", "decided"),
     [
-        (SOME, "**Reproduced** (general statement). A difference is 1.5 [1, 2] s (claimed: > 0)."),
-        (SOME, "**Not tested** (universal statement). Missing: surfaces with 20 realisations "),
-        ([growing([(-1.0, 2.0)], n=1000)], "about 26000 realisations would settle it"),
-        ([growing([HOLDS] * 5)], "| at n_p = 4 | 1.5 [0.843, 2.16] s | > 0 | holds |"),
-        (
-            [growing([HOLDS, FAILS, (-9.0, -8.0)])],  # the clearest failure
-            "It holds at n_p = 0; it fails at n_p = 1 and 2. At n_p = 2, a difference is -8.5 [",
-        ),
+        ([HOLDS, (8.0, 9.0)], 0),  # the smallest margin
+        ([HOLDS, FAILS, (-9.0, -8.0)], 2),  # the clearest failure
+        ([HOLDS, (-1.0, 2.0), (-1.0, 1.4)], 2),  # the one that needs the most realisations
     ],
 )
-def test_the_page_holds_the_deciding_numbers(claims, expected):
-    assert expected in page(rows(claims, Evidence()))
+def test_one_finding_decides_a_verdict(intervals, decided):
+    found = [finding(*interval, n_p=i, n=100) for i, interval in enumerate(intervals)]
+    assert judged(with_findings("growing_length", *found)).deciding["n_p"] == decided
 
 
-def test_a_test_is_marked_as_registered_or_as_changed_with_its_reason(monkeypatch):
-    monkeypatch.setattr(pages, "CHANGED", {"It grows": "0.5 was a slip"})
-    text = page(rows(SOME, Evidence()))
-    assert "**reproduced** | changed |" in text
-    assert "Changed after registration: 0.5 was a slip." in text
-    assert text.count("Registered before its data.") == len(SOME) - 1
+def test_the_table_of_findings_has_the_columns_that_tell_cases_apart():
+    found = [finding(*HOLDS, n_p=6, side="x"), finding(-1.0, 2.0, n_p=20, n=1000)]
+    header, lines = judged(with_findings("growing_length", *found)).table
+    needed = "realisations needed"
+    assert header == ["n_p", "side", "value", "claimed", "outcome", needed]
+    assert lines[0] == ("6", "x", "1500000 [928203, 2071797] µs", "> 0", "holds", "")
+    assert [line[-1] for line in lines] == ["", "29000"]
+
+
+def test_the_page_has_each_statement_with_its_number_mark_and_count():
+    page = rendered("claims.md", **content(rows([GROWS, *STATEMENTS[:2]], Evidence())))
+    (line,) = (line for line in page.splitlines() if line.startswith(f"| [{GROWS.heading}]"))
+    assert line.split(" | ")[1:5] == ["general", "**reproduced in part**", "1 of 2", "changed"]
+    assert f"\n## {GROWS.heading}\n" in page
+    assert f"Changed after registration: {GROWS.changed}" in page
+    assert page.count("Registered before its data.") == sum(
+        not each.changed for each in (GROWS, *STATEMENTS[:2])
+    )
+
+
+def test_verdicts_of_the_full_study_are_those_of_its_table(tmp_path):
+    table, file = tmp_path / "claims.parquet", tmp_path / "full_study.csv"
+    write(rows_to_table(rows([GROWS, MISSING], Evidence()), SCHEMA), table, {})
+    full_study.renew(table, file)
+    assert file.read_text(encoding="utf-8").splitlines() == [
+        "id,verdict,holds,cases",
+        "growing_length,reproduced in part,1,2",
+        "rapid_but_smooth,not tested,0,0",
+    ]
+
+
+def test_the_full_study_has_a_verdict_on_every_statement():
+    found = full_study.verdicts()
+    assert list(found) == [each.id for each in STATEMENTS]
+    assert all(0 <= row["holds"] <= row["cases"] > 0 for row in found.values())
+
+
+ENTRY = {"title": "It grows", "section": "3.2", "figure": 7, "form": "general", "words": "It does."}
+ENTRY |= {"criterion": "It grows.", "remark": "As {onset}.", "changed": ""}
+
+
+def test_a_statement_names_another_by_its_title():
+    one, other = statements({"growing_length": ENTRY, "onset": ENTRY | {"title": "It begins"}})
+    assert (one.number, other.number, one.remark) == (1, 2, "As “It begins”.")
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "message"),
+    [
+        ("shrinking", {}, r"\[shrinking\]: no module .* has a test"),
+        ("onset", {"figures": 7}, r"\[onset\]: figures is missing or no key; keys are title,"),
+        ("onset", {"form": "grand"}, r"form is 'grand'; choose from universal,"),
+        ("onset", {"words": "{offset}"}, r"\[onset\]: \{offset\} is no statement"),
+    ],
+)
+def test_a_statement_that_is_not_complete_is_refused(name, changes, message):
+    with pytest.raises(ValueError, match=message):
+        statements({"onset": ENTRY, name: ENTRY | changes})
+
+
+def test_a_statement_lacks_no_key():
+    with pytest.raises(ValueError, match=r"\[onset\]: remark is missing"):
+        statements({"onset": {key: text for key, text in ENTRY.items() if key != "remark"}})
 
 
 def registered(name):
@@ -249,11 +267,11 @@ def registered(name):
 
 
 def test_every_statement_is_as_registered():
-    """One that is new, or in another form, has a reason, and reasons have a statement."""
+    """One that is new, or in another form, has a reason."""
     forms = {row["claim"]: row["form"] for row in registered("register.csv")}
-    others = {claim.name for claim in CLAIMS if claim.form != forms.get(claim.name)}
-    assert others <= set(CHANGED) <= {claim.name for claim in CLAIMS}
-    assert set(forms) <= {claim.name for claim in CLAIMS}
+    others = [each for each in STATEMENTS if each.form != forms.get(each.title)]
+    assert all(each.changed for each in others)
+    assert set(forms) <= {each.title for each in STATEMENTS}
 
 
 @pytest.mark.parametrize("place", ["README.md", "docs/claims.md", "docs/registration/README.md"])
@@ -268,9 +286,9 @@ def test_pages_count_the_verdicts_of_the_registered_tests(place):
 
 def test_the_readme_counts_registered_and_changed_tests():
     text = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
-    number, changed = len(registered("confirmed.csv")), len(CHANGED)
+    number, changed = len(registered("confirmed.csv")), sum(bool(s.changed) for s in STATEMENTS)
     assert f"The tests of {number} statements were registered" in text
-    assert f"Of these tests, {changed - len(CLAIMS) + number} were later changed" in text
+    assert f"Of these tests, {changed - len(STATEMENTS) + number} were later changed" in text
     assert f"on these {changed} statements are not confirmatory" in text
 
 

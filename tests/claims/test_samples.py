@@ -20,7 +20,6 @@ from springblock.claims.load_peaks import (
     both_peaks,
     main_rate,
     mean_rate,
-    quietest_rate,
     rate_between,
     slips_again,
     small_force_suffices,
@@ -43,7 +42,10 @@ from springblock.claims.sides import (
     mixed,
     paired_difference,
 )
-from springblock.claims.surfaces import edge, grooved_parts
+from springblock.claims.stress import elastic_forces
+from springblock.claims.surfaces import core, edge, from_edge, grooved_parts, pillars_of
+from springblock.model.material import Material
+from springblock.model.scene import Scene
 
 RUN = paper.record(FLAT, 0)
 
@@ -163,11 +165,12 @@ def test_of_several_load_peaks_the_two_most_prominent_count():
     assert 240.0 < 1e6 * run.time[both_peaks(run).valley] < 280.0
 
 
-def test_the_force_grows_to_the_second_load_peak_however_high_the_first():
+def test_the_force_grows_to_the_second_load_peak_by_a_part_of_its_drop():
     run = paper.record(ALONG, 0)
     found = both_peaks(replace(run, **peaks((220.0, 0.66), (300.0, 0.60), width=40.0)(run)))
-    second = found.run.force[found.second]
-    assert small_force_suffices.__wrapped__(found) == pytest.approx(second / found.lowest - 1.0)
+    growth = found.run.force[found.second] - found.lowest
+    drop = found.run.force.max() - 0.05 * found.run.normal_force  # to mu_dynamic
+    assert small_force_suffices.__wrapped__(found) == pytest.approx(growth / drop)
 
 
 def test_the_mean_detachment_rate_is_that_from_the_first_to_the_last():
@@ -204,21 +207,29 @@ def test_further_slips_are_divided_by_the_blocks_detached_at_the_lowest_force():
 def test_rates_between_load_peaks_are_per_second():
     run = paper.record(ALONG, 0)
     run = replace(run, **peaks((220.0, 0.60), (300.0, 0.65))(run))
-    interval = float(run.time[1] - run.time[0])
     detachments = np.where(run.time < 2.5e-4, 1, 3)
     found = both_peaks(replace(run, detachments=detachments))
-    assert quietest_rate(found, interval / run.t_avg) == pytest.approx(1.0 / interval)
     total = detachments[found.first : found.second].sum()
     assert rate_between(found) == pytest.approx(total / found.apart)
 
 
 def test_parts_of_a_grooved_pillar_hold_each_contact_block_once():
-    (y, x), size = ALONG.pattern.origins[0], ALONG.n_p
-    contact = ALONG.pattern.contact[y : y + size, x : x + size]
+    contact, edges = (pillars_of(each, ALONG)[0] for each in (ALONG.contact, edge(ALONG.contact)))
     parts = [mask.astype(int) for mask in grooved_parts(ALONG).values()]
     np.testing.assert_array_equal(sum(parts), contact)
-    assert edge(contact)[[0, 4, 6], 10].all()  # beside the margin and the first groove
-    assert not edge(contact)[2, 10]
+    assert edges[[0, 4, 6], 10].all()  # beside the margin and the first groove
+    assert not edges[2, 10]
+
+
+def test_blocks_at_the_border_of_a_surface_bear_what_those_inside_bear():
+    """They are no edge: no neighbour without contact pulls on them, as it does beside a groove."""
+    grooves = Scene(12, n_p2=4, n_s2=2)
+    forces = np.hypot(*elastic_forces(grooves, Material()))
+    inside, edges = (each(grooves.contact) for each in (core, edge))
+    border = inside & (from_edge(12) == 0)
+    assert border.any()
+    np.testing.assert_allclose(forces[border], forces[inside].mean(), rtol=1e-9)
+    assert forces[edges].min() > 1.1 * forces[inside].max()
 
 
 @pytest.mark.parametrize(("n_p", "rings"), [(4, 1), (5, 2), (6, 2)])

@@ -40,7 +40,7 @@ from springblock.accuracy.solutions import Small
 from springblock.accuracy.stability import all_cases
 from springblock.beyond.page import QUESTIONS
 from springblock.beyond.page import page as questions
-from springblock.claims import CLAIMS
+from springblock.claims import STATEMENTS
 from springblock.claims.table import rows as judged
 from springblock.cli import main
 from springblock.cli.simulate import batch_table
@@ -66,12 +66,12 @@ ORIGIN = {"code_version": "1.0", "configuration": "{}", "configuration_digest": 
 def evidence() -> tuple[list[Record], list[Row]]:
     """Realisations of all surfaces that the statements need, and the table `claims`."""
     records = paper.realisations(paper.CURVES)
-    return records, judged(CLAIMS, paper.evidence(records))
+    return records, judged(STATEMENTS, paper.evidence(records))
 
 
 def findings() -> str:
-    """All columns of the table `claims` but the words of the statements."""
-    return written(pd.DataFrame(evidence()[1]).drop(columns=["statement", "section", "form"]))
+    """All columns of the table `claims` but the titles of the statements."""
+    return written(pd.DataFrame(evidence()[1]).drop(columns=["claim", "section", "form"]))
 
 
 def written(table: pd.DataFrame) -> str:

@@ -9,7 +9,7 @@ import pyarrow as pa
 import pytest
 from PIL import Image, PngImagePlugin
 
-from springblock.claims import CLAIMS
+from springblock.claims import STATEMENTS
 from springblock.claims.rule import Evidence
 from springblock.claims.table import rows
 from springblock.io.parquet import write
@@ -41,7 +41,7 @@ def nasty(tmp_path, picture) -> Path:
     text, table, claims = (tmp_path / name for name in names)
     text.write_text(f"# {NASTY}\n\n{NASTY} [x](javascript:alert(1))\n\n## {NASTY}\n")
     write(pa.table({NASTY: [NASTY, "a"], "b": [NASTY, NASTY]}), table, {})
-    said = [row | {"claim": NASTY, "statement": NASTY} for row in rows(CLAIMS[:1], Evidence())]
+    said = [row | {"claim": NASTY, "section": NASTY} for row in rows(STATEMENTS[:1], Evidence())]
     write(pa.Table.from_pylist(said), claims, {})
     report = tmp_path / "report.html"
     files = [picture(f"sweep_{NASTY}.png", f'" onerror="alert(1) {NASTY}'), text, table, claims]

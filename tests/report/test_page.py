@@ -1,20 +1,20 @@
 """What the report says, and that it takes nothing for its own that was only given to it."""
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 import pyarrow as pa
 import pytest
 
-from springblock.claims import CLAIMS
-from springblock.claims.page import counted, numbered_parts
-from springblock.claims.page import page as claims_page
+from springblock.claims import STATEMENTS
 from springblock.claims.ranges import PLAIN, SCALED
-from springblock.claims.rule import Evidence
+from springblock.claims.rule import Case, Evidence
+from springblock.claims.summary import content, counted, judged
 from springblock.claims.table import rows
 from springblock.cli import main
 from springblock.io.records import read_records
 from springblock.model.scene import Scene
+from springblock.pages import rendered
 from springblock.plotting.figures import FIGURES
 from springblock.report import findings, markup, media
 from springblock.report.markup import typeset
@@ -57,17 +57,17 @@ def test_the_size_of_least_friction_follows_the_numbers_and_not_the_paper():
 
 def test_no_minimum_is_claimed_where_the_statement_was_not_tested():
     flat, pillars = realisations(0.80), realisations(0.72, n_p=6, n_s=6)
-    claims = rows(CLAIMS, Evidence())
+    claims = rows(STATEMENTS, Evidence())
     assert found(flat, pillars, claims=claims)["friction"]["below"] == []
     assert found(claims=claims) == {}
 
 
-def judged(claim, case, value, verdict="reproduced", outcome="holds"):
+def tested_row(claim, value, verdict="reproduced", outcome="holds", **case):
     """A row of the table of statements, on one that the study does test."""
-    assert claim in {each.name for each in CLAIMS}
+    assert claim in {each.title for each in STATEMENTS}
     limits = {"together_low": value - 0.01, "together_high": value + 0.01, "claimed_low": 0.01}
-    named = {"claim": claim, "case": case, "verdict": verdict, "outcome": outcome}
-    return limits | named | {"value": value}
+    named = {"claim": claim, "verdict": verdict, "outcome": outcome, "value": value}
+    return limits | named | asdict(Case(**case))
 
 
 def test_findings_take_their_numbers_from_the_statements():
@@ -77,18 +77,16 @@ def test_findings_take_their_numbers_from_the_statements():
         "Without hierarchy one load peak",
     )
     claims = [
-        judged("Lowest static friction at an intermediate n_p", "", 0.17),
-        judged("Order of detachment on a pillar", "n_p = 6", 0.1),
-        judged("The order of detachment never changes", "n_p = 6", 0.33, "not reproduced", "fails"),
-        judged(length, f"fit = {PLAIN}, n_p = 20", 2.7),
-        judged(length, f"fit = {SCALED}, n_p = 20", 3.6),
-        judged(
-            "Correlation length grows with n_p", f"fit = {SCALED}", -0.005, "not settled", "open"
-        ),
-        judged(peaks, "n_p2 = 4", 0.004, outcome="fails"),
-        judged(peaks, "n_p2 = 8", 0.028),
-        judged(alone, "surface = pillars of 6 blocks", 0.012, outcome="fails"),
-        judged(alone, "surface = pawls of 8 (no pillars)", 0.027, outcome="fails"),
+        tested_row("Lowest static friction at an intermediate n_p", 0.17),
+        tested_row("Order of detachment on a pillar", 0.1, n_p=6),
+        tested_row("The order of detachment never changes", 0.33, "not reproduced", "fails", n_p=6),
+        tested_row(length, 2.7, fit=PLAIN, n_p=20),
+        tested_row(length, 3.6, fit=SCALED, n_p=20),
+        tested_row("Correlation length grows with n_p", -0.005, "not settled", "open", fit=SCALED),
+        tested_row(peaks, 0.004, outcome="fails", n_p=58, n_p2=4),
+        tested_row(peaks, 0.028, n_p=58, n_p2=8),
+        tested_row(alone, 0.012, outcome="fails", n_p=6),
+        tested_row(alone, 0.027, outcome="fails", n_p2=8, n_s2=2),
     ]
     told = found(realisations(0.80), realisations(0.63, n_p=6, n_s=6), claims=claims)
     assert told["friction"]["below"] == ["0.17 [0.16, 0.18]"]
@@ -97,15 +95,17 @@ def test_findings_take_their_numbers_from_the_statements():
     assert [name for (_, name), _ in told["correlation"]["fits"]] == ["l_d", "l_c"]
     assert told["correlation"]["growth"] == [("l_d", "", "-0.005 [-0.015, 0.005]")]
     assert [size for size, _ in told["peaks"]["along"]] == [8, 4]
-    assert told["peaks"]["others"] == [("pawls of 8 (no pillars)", "0.027 [0.017, 0.037]")]
+    assert told["peaks"]["others"] == [
+        ("pawls of 8 between grooves of 2 (no pillars)", "0.027 [0.017, 0.037]")
+    ]
 
 
 @pytest.mark.parametrize(
     ("verdict", "is_open"), [("reproduced", False), ("not settled", True), ("not tested", True)]
 )
 def test_a_study_says_whether_it_settles_that_two_peaks_need_hierarchy(verdict, is_open):
-    along = judged("Two load peaks along grooves", "n_p2 = 8", 0.028)
-    alone = judged("Without hierarchy one load peak", "surface = pillars", 0.009, verdict, "open")
+    along = tested_row("Two load peaks along grooves", 0.028, n_p2=8)
+    alone = tested_row("Without hierarchy one load peak", 0.009, verdict, "open", n_p=6)
     assert found(claims=[along, alone])["peaks"]["is_open"] == is_open
 
 
@@ -131,14 +131,14 @@ def test_constants_of_their_own_are_left_out_of_the_findings():
 
 
 def test_each_statement_belongs_to_a_figure():
-    assert {f"figure_{claim.figure}" for claim in CLAIMS} <= FIGURES.keys()
+    assert {f"figure_{each.figure}" for each in STATEMENTS} <= FIGURES.keys()
 
 
 def test_statements_link_to_where_their_page_says_more():
-    table = rows(CLAIMS, Evidence())
-    body = markup.rendered("claims", claims_page(table)).body
-    made = statements(table)
-    assert counted(numbered_parts(table)) == {"not tested": len(CLAIMS)}
+    table = rows(STATEMENTS, Evidence())
+    body = markup.rendered("claims", rendered("claims.md", **content(table))).body
+    made = statements(judged(table))
+    assert counted(judged(table)) == {"not tested": len(STATEMENTS)}
     assert all(f'id="{statement["anchor"]}"' in body for statement in made)
 
 

@@ -47,9 +47,10 @@ def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
     value, low, high = (factor * float(each) for each in interval)
     if high == low:  # exact
         return f"{value:.4g}{unit}"
-    if not np.isfinite([low, high]).all():
+    finite = [each for each in (value, low, high) if np.isfinite(each)]
+    if len(finite) < 2:
         return f"{value:.3g} [no interval]{unit}"
-    digits = min(max(0, 1 - int(np.floor(np.log10(high - low)))), _DIGITS)
+    digits = min(max(0, 1 - int(np.floor(np.log10(np.ptp(finite))))), _DIGITS)
     while digits < _DIGITS and any(limit and not round(limit, digits) for limit in (low, high)):
         digits += 1
     return f"{value:z.{digits}f} [{low:z.{digits}f}, {high:z.{digits}f}]{unit}"

@@ -11,7 +11,7 @@ from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import repeatability
 from springblock.claims import ranges, samples, surfaces
 from springblock.claims.ranges import INF, within
-from springblock.claims.rule import Evidence, Finding
+from springblock.claims.rule import Case, Evidence, Finding
 from springblock.claims.samples import found_on, mean_over, over_runs, share_of
 from springblock.claims.surfaces import Mask, in_files
 from springblock.io.records import Record
@@ -38,17 +38,6 @@ _on_flat = partial(mean_over, surfaces.flat)
 
 
 def step_suffices(evidence: Evidence) -> Iterator[Finding]:
-    """Test: on surfaces of 16 x 16 blocks (flat, pillars of 4 blocks, and pillars of 8 blocks with
-    pawls of 2 and grooves of 1), the bias of the mean of static friction, of t_max and of t_avg is
-    smaller than the standard error of this mean over 20 realisations. The paper does not say how
-    its Runge-Kutta method treats friction within a step. Three methods are therefore tested: both
-    integrators of this study (leapfrog and rk4), and the plain Runge-Kutta method, in which
-    friction opposes the velocity of each stage. Biases are differences from the means with the
-    leapfrog and a step of 5e-9 s. Most of the bias of the plain method does not depend on the step:
-    with half the step, means over the same 20 realisations change by 0.5 % or less (standard errors
-    of 0.06 to 0.9 %), while their biases are 4 to 17 %. If “integration errors” meant such changes
-    alone, the plain method would be an open case, and the statement not settled.
-    """
     scatter = select(evidence.precision, comparison="scatter")
     errors = {(row["scene"], row["quantity"]): ensemble_error(row) for row in scatter}
     paired = select(evidence.precision, comparison="paired", step=PAPER_STEP)
@@ -62,20 +51,16 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
                     f"the relative bias of {name} at h = {PAPER_STEP:.0e} s on the {scene} surface"
                 )
                 bias, claimed = samples.interval(row, "error"), within(errors[scene, quantity])
-                yield Finding({"integrator": integrator}, statistic, bias, claimed, source)
+                yield Finding(Case(integrator=integrator), statistic, bias, claimed, source)
 
 
 def shear_springs(evidence: Evidence) -> Iterator[Finding]:
-    """Test: K_s differs by less than a tenth from the stiffness in shear, G l²/l_z, of the layer
-    above a block (l: lattice spacing). The paper's K_s is that of half the layer, as if blocks
-    moved with its mid-plane; with this reading the statement would be reproduced.
-    """
     if not evidence.records:
         return
     any_ = Material()  # the ratio of stiffnesses is the same for every material
     ratio = any_.k_s / (3.0 / 8.0 * any_.youngs_modulus * any_.spacing**2 / any_.thickness)
     exact, claimed = Estimate(ratio, ratio, ratio), within(_AFFECTS, 1.0)
-    yield Finding({}, "the paper's K_s over G l²/l_z", exact, claimed, "equations of section 2")
+    yield Finding(Case(), "the paper's K_s over G l²/l_z", exact, claimed, "equations of section 2")
 
 
 def varied(evidence: Evidence, *names: str) -> list[Scene]:
@@ -87,12 +72,6 @@ def varied(evidence: Evidence, *names: str) -> list[Scene]:
 
 @_on_flat("the amplitude of an oscillation at t_max over that at t = 0", ranges.NEGLIGIBLE)
 def damping(run: Record) -> float:
-    """Test: viscous damping reduces the amplitude of oscillations to less than a tenth by t_max of
-    the flat surface; the verdict is the same on pillars, where t_max is later. The reduction takes
-    0.92 ms, 8.6 times t_max; at a slider velocity of 5e-5 m/s, where t_max is 1.06 ms, the test
-    would hold. The amplitude decreases as exp(-gamma t/2) in all modes of the lattice, since even
-    the slowest mode, with the frequency (K_s/m)^(1/2), is underdamped.
-    """
     return float(np.exp(-0.5 * run.material.gamma * run.t_max))
 
 
@@ -112,19 +91,9 @@ def _larger_moduli(evidence: Evidence, paper: Material) -> Iterator[tuple[float,
 
 
 def same_ratio(evidence: Evidence) -> Iterator[Finding]:
-    """Test: on flat surfaces with other moduli at the same ratio, static friction changes by less
-    than 5 %, and t_max < t_avg. The registered cases are 4 and 16 times the paper's modulus; with
-    these alone the statement would be reproduced. 1e12 Pa (diamond) was added when other runs had
-    shown that the statement fails there. Its motion is √1e5 times faster than that with the paper's
-    modulus but slider velocity and damping divided by √1e5, which is simulated instead. The larger
-    the modulus, the sooner after t_max the fronts have crossed the surface, so that in the end the
-    blocks that detach before t_max decide the sign of t_max - t_avg: (t_max - t_avg)/t_max is
-    -0.00050 at 1e11 Pa, -0.00009 at 2e11 Pa and 0.00021 at 4e11 Pa (20 other runs each, standard
-    errors of 0.00007 to 0.0001).
-    """
     for flat, runs in surfaces.flat(evidence.records).items():
         for modulus, scene in _larger_moduli(evidence, runs[0].material):
-            case = {"E in Pa": modulus}
+            case = Case(constant="youngs_modulus", constant_value=modulus)
             own, paper = (samples.friction(evidence, s) for s in (scene, flat))
             name, apart = "static friction minus that with the paper's material", within(0.05)
             more = samples.relative(own, paper, paper)
@@ -147,15 +116,6 @@ def fronts(run: Run) -> float:
 
 
 def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
-    """Test: fronts are counted as clusters of more than 20 detached blocks at the time when half of
-    all blocks have detached; about two such clusters form by chance. Among the simulated values of
-    a parameter, the largest number of fronts exceeds the smallest by more than a tenth of the
-    number with the paper's constants. The number is not a monotonic function of the scatter: from
-    0.02 to 0.3 it changes by 0.33 of the number with the paper's constants, and the sign of this
-    change depends on how fronts are counted. The change between the scatters with the fewest and
-    the most fronts exceeds the bound however they are counted: it is 0.49 or more for clusters of
-    10 to 100 blocks when 10 to 60 % of all blocks have detached.
-    """
     for flat, runs in surfaces.flat(evidence.records).items():
         here = over_runs(fronts, runs)
         for name in _DECISIVE:
@@ -169,21 +129,13 @@ def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
             span = f"from {name} = {low:g} to {high:g}, over the number with the paper's constants"
             statistic = f"the change in the number of fronts {span}"
             source = in_files(*dict.fromkeys((fewest, most, flat)))
-            yield Finding({"constant": name}, statistic, change, (_AFFECTS, INF), source)
+            yield Finding(Case(constant=name), statistic, change, (_AFFECTS, INF), source)
 
 
 def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:
-    """Test: less than a tenth of the blocks detach before t_max. Blocks also detach without a
-    front, where their own threshold is below the load: at t_max, the thresholds of 0.08 of all
-    blocks at the largest velocity, and of 0.17 and 0.30 with scatters of 0.2 and 0.3, are below the
-    mean load on the blocks that still stick. If these shares were subtracted, 0.06, 0.06 and 0.07
-    would remain in the three cases (0.05 at a pressure of 12500 Pa), and the statement would be
-    reproduced. If thresholds were compared with the load that a block would bear without any slip
-    instead, 0.09, 0.09 and 0.11 would remain, and only the largest scatter would fail.
-    """
     for name in _DECISIVE:
         for scene in varied(evidence, name):
-            case = {"constant": f"{name} = {dict(scene.varied)[name]:g}"}
+            case = Case(constant=name, constant_value=dict(scene.varied)[name])
             early = samples.share(over_runs(samples.before_peak, evidence.records[scene]))
             yield found_on(scene, _BEFORE, early, ranges.NEGLIGIBLE, case=case)
 
@@ -195,18 +147,12 @@ def single_events(run: Run) -> float:
 
 
 def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """Test: most precursors (“those occurring before t_max”) detach before all of their eight
-    neighbours; or, if events (here: clusters of precursors) are counted, most consist of a single
-    block. With only the blocks that detach before 0.9 t_max, or before 0.99 t_max, as precursors,
-    the test would also hold for blocks. With the bound for “all” it would fail for blocks and for
-    events.
-    """
     blocks = ("the share of precursors that detach before all eight neighbours", samples.isolated)
     events = ("the share of clusters of precursors that are a single block", single_events)
     for scene, runs in surfaces.flat(evidence.records).items():
         for unit, (statistic, quantity) in (("blocks", blocks), ("events", events)):
             share = samples.share(over_runs(quantity, runs))
-            yield found_on(scene, statistic, share, ranges.MOST, case={"unit": unit})
+            yield found_on(scene, statistic, share, ranges.MOST, case=Case(part=unit))
 
 
 @_on_flat(
@@ -214,11 +160,6 @@ def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
     ranges.MOST,
 )
 def weakest_first(run: Record) -> float:
-    """Test: of the m blocks that detach before t_max, most are among the m with the lowest
-    mu_static. With the bound for “all” the statement would not be reproduced, unless m counted only
-    the blocks that detach before 0.9 t_max: 0.97 of these are among the m with the lowest
-    mu_static.
-    """
     early = run.t_det < run.t_max
     thresholds, _ = draw_friction(run.t_det.shape, run.seed, run.material)
     bound = np.sort(thresholds, axis=None)[np.count_nonzero(early) - 1]
@@ -230,24 +171,12 @@ def weakest_first(run: Record) -> float:
     (1.0 - 0.9, 0.9),
 )
 def not_all_nucleate(run: Record) -> float:
-    """Test: of the blocks that detach before 0.9 t_max, between a tenth and nine tenths have no
-    neighbour that detaches by t_max. The paper's precursors are all blocks that detach before
-    t_max, but the last of them have no time to trigger a front. Of all precursors, 0.263 [0.261,
-    0.266] have no such neighbour: the verdict is the same. Neighbours also detach by chance: if
-    blocks detached independently, both shares would be 0.65. A more direct measure are the clusters
-    of more than 20 blocks that exist when half of all blocks have detached: 0.86 of the precursors
-    before 0.9 t_max are not the first block of such a cluster (60 runs), with the same verdict.
-    """
     alone = np.all(~(samples.neighbours(run.t_det, np.inf) < run.t_max), axis=0)
     return share_of(alone, run.t_det < 0.9 * run.t_max)
 
 
 @_on_flat(_BEFORE, ranges.NEGLIGIBLE)
 def onset(run: Record) -> float:
-    """Test: less than a tenth of the blocks detach before t_max. Some fronts have begun by then:
-    there are 3.8 clusters of more than 20 detached blocks at t_max (60 runs); by chance there would
-    be none.
-    """
     return samples.before_peak(run)
 
 
@@ -265,9 +194,6 @@ def avalanche_follows(run: Record) -> float:
 
 @_on_flat(f"the detachment rate at t_max over its maximum {_WINDOW}", ranges.FEWER_THAN_HALF)
 def peaks_apart(run: Record) -> float:
-    """Test: at t_max the detachment rate is below half its maximum. The verdict is the same with
-    windows of 0.2 to 3 % of t_max; with one of 5 %, the test would fail.
-    """
     counts = samples.rates(run, _BURST * run.t_max)
     return float(counts[np.argmin(np.abs(run.time - run.t_max))] / counts.max())
 
@@ -278,35 +204,24 @@ def peaks_apart(run: Record) -> float:
     within(0.5),
 )
 def average_is_propagation(run: Record) -> float:
-    """Test: t_avg differs from the time of the largest detachment rate by less than half the
-    duration of the transition, which is the time from a tenth to nine tenths of the detachments.
-    For comparison, t_max and t_avg differ by 0.77 of this duration. The verdict is the same with
-    any bound of 0.3 or more and any window of 0.2 to 5 % of t_max.
-    """
     return (avalanche(run) - run.t_avg) / (samples.lasting(run) * run.t_max)
 
 
 @_on_flat(
-    "the number of slips per block in a time as long as the transition, after the first force "
-    "minimum",
+    "the number of slips per block in a time as long as the transition, at the beginning of the "
+    "dynamic phase",
     ranges.NEGLIGIBLE,
 )
 def localized_stick_slip(run: Record) -> float:
-    """Test: after the first force minimum, there is less than one slip for every ten blocks in a
-    time as long as the transition, which lasts from a tenth to nine tenths of the first
-    detachments. The number of slips, in which turning back without sticking counts as a new slip,
-    is a mean over all intervals of this length in the rest of the run. In single intervals it rises
-    from 0.01 in the first, when nearly all blocks stick, to 0.132 in the 16th (about 156 µs), and
-    exceeds a tenth in the 14th to the 19th, when the force reaches its dynamic level: with these
-    intervals alone the statement would fail. If the transition were defined as lasting from 5 to 95
-    % of the detachments, the number would be 0.118, and the statement would fail.
-    """
-    minimum = first_minimum(run.force)
-    if minimum is None:
+    """Return the mean number from the force minimum to the fall that follows the next maximum."""
+    start = first_minimum(run.force)
+    if start is None:
         return float("nan")
-    durations = (run.time[-1] - run.time[minimum]) / (samples.lasting(run) * run.t_max)
-    blocks = np.count_nonzero(run.contact)
-    return float(run.switches[minimum:].sum() / blocks / durations)
+    after = run.force[start:]
+    loaded = int(np.argmax(after))
+    end = start + loaded + int(np.argmax(after[loaded:] < after.mean()))
+    durations = (run.time[end] - run.time[start]) / (samples.lasting(run) * run.t_max)
+    return float(run.switches[start:end].sum() / np.count_nonzero(run.contact) / durations)
 
 
 def strain_left(run: Record, minimum: int) -> tuple[Array, Array]:
@@ -322,15 +237,6 @@ def strain_left(run: Record, minimum: int) -> tuple[Array, Array]:
 
 
 def residual_strains(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the strain along the sliding direction varies less from block to block before t_max
-    (snapshot at 100 µs) than at the force minimum (112 µs). When the force has reached its dynamic
-    level (160 µs) and later (290 µs), less than a tenth of the strain at the force minimum is left
-    (slope of the regression of the later strain on that at the force minimum). In a second reading
-    of the removal, strains that have formed since must be absent, too: at both times, the strain
-    varies less than half as much as at the force minimum. While the surface slides, new strains
-    replace the former ones and vary more than these did, so that this reading would fail with any
-    bound up to 1; without it the statement would be reproduced.
-    """
     for scene, all_runs in surfaces.flat(evidence.records).items():
         runs = [run for run in all_runs if len(run.snapshots)]
         if not runs:
@@ -348,7 +254,7 @@ def residual_strains(evidence: Evidence) -> Iterator[Finding]:
             ("the removal of all strains", amount, scatter, ranges.FEWER_THAN_HALF, after),
         ):
             for time, sample in zip(1e6 * times[when], values[when], strict=True):
-                found, case = samples.mean(sample), {"part": part}
+                found, case = samples.mean(sample), Case(part=part)
                 yield found_on(scene, statistic.format(time), found, claimed, case=case)
 
 
@@ -363,14 +269,6 @@ def _margin(flat: Scene) -> int:
 
 
 def uniform(evidence: Evidence) -> Iterator[Finding]:
-    """Test: in the core (here the blocks 10 or more from the edge), position explains less than a
-    fifth of the variance of t_det; the mean t_det of the outermost blocks differs from that of the
-    core by less than a fifth of the standard deviation of t_det (a bound for small effects). The
-    verdict is the same if the two outermost rows along each edge are taken as the outermost blocks.
-    With a bound above 0.35 for the outermost blocks the statement would hold. As a general
-    statement it would be reproduced in part. Over the whole surface, position explains 0.009 of the
-    variance; with this measure alone the statement would hold.
-    """
     name = "the share of the variance of t_det explained by position (jackknife)"
     lateness, unit = "the mean t_det minus that of the core", "standard deviations of t_det"
     for flat, runs in surfaces.flat(evidence.records).items():
@@ -378,38 +276,24 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
         core = depth >= _margin(flat)
         times = np.stack([run.t_det for run in runs])
         by_place = Estimate.of(repeatability(times[:, core]), len(times))
-        yield found_on(flat, name, by_place, ranges.ALIKE, case={"part": "the core"})
+        yield found_on(flat, name, by_place, ranges.ALIKE, case=Case(part="the core"))
         late = samples.mean([(t[depth == 0].mean() - t[core].mean()) / t.std() for t in times])
-        outermost = {"part": "the outermost blocks"}
+        outermost = Case(part="the outermost blocks")
         yield found_on(flat, lateness, late, within(_SMALL), unit, outermost)
 
 
 def nucleation_anywhere(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the first patch is that of 5 x 5 blocks with the earliest mean t_det. On average, 30 to
-    70 % of all positions are nearer to the edge than this patch (50 % if all are equally likely),
-    and the share of realisations in which its centre is less than 10 blocks from the edge differs
-    from the share expected by chance by less than a fifth of the latter. The share expected by
-    chance, 0.287 (standard error: 0.0013), was measured on 300 periodic surfaces, which have no
-    edges; these were marked at random places after the runs. It lies between the share of all
-    patches (0.257) and that of all blocks (0.306) that are so near to the edge: no patch has its
-    centre in the two outermost rows, and some of the fronts that begin there are counted further
-    inside. If 0.306 were taken as the share by chance, the statement would be reproduced; with
-    0.257 it would not be settled. With a distance of 5 blocks the share is 0.145, by chance 0.136,
-    and the case would be open, too. Over 1,200 further runs and these 400, the tested share is
-    0.299 [0.274, 0.326], and the statement would be reproduced. The outcome of the first finding is
-    the same for patches of 1 to 17 blocks a side.
-    """
     first = f"the first {_PATCH} x {_PATCH} patch to detach"
     rank = f"the share of positions nearer to the edge than {first}"
     near = "the share of runs in which {} has its centre less than {} blocks from the edge"
     for flat, runs in surfaces.flat(evidence.records).items():
         margin = _margin(flat)
         ranks = np.array([samples.first_patch(run.t_det, _PATCH) for run in runs])
-        case = {"part": "all positions"}
+        case = Case(part="all positions")
         yield found_on(flat, rank, samples.mean(ranks), within(_SMALL, 0.5), case=case)
         depth = surfaces.from_edge(flat.n_blocks - _PATCH + 1) + _PATCH // 2  # of the centres
         found = samples.proportion((ranks < np.mean(depth < margin)).astype(float))
         blocks = np.mean(surfaces.from_edge(flat.n_blocks) < margin)
         chance = float((1.0 - _INWARD) * np.mean(depth < margin) + _INWARD * blocks)
-        statistic, case = near.format(first, margin), {"part": "the blocks near the edge"}
+        statistic, case = near.format(first, margin), Case(part="the blocks near the edge")
         yield found_on(flat, statistic, found, within(_SMALL * chance, chance), case=case)

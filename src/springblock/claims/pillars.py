@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from itertools import product
+from operator import attrgetter
 
 import numpy as np
 
@@ -41,9 +42,6 @@ _large = partial(pillars, smallest=_LARGE)
 
 
 def pillars_alike(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the position of a pillar on the surface explains less than a fifth of the variance of
-    its mean t_det.
-    """
     name = "the share of the variance of a pillar's mean t_det explained by position (jackknife)"
     for scene, runs in pillars(evidence.records).items():
         times = np.array([[part.mean() for part in pillars_of(r.t_det, scene)] for r in runs])
@@ -67,13 +65,6 @@ def _rings(n_p: int) -> Iterator[tuple[str, dict[str, Mask]]]:
 
 
 def detachment_order(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the mean times over pillars and realisations are in this order, on the border and on
-    the second ring; the centre is the innermost block, or 2 x 2 blocks. The edges of a ring are its
-    rows and columns without the corners. That the second ring begins after the border is not part
-    of the test: its corners detach later than the border's edges along x by 0.007 t_max at n_p =
-    30, and by more on smaller pillars. At n_p = 60 the sign of this delay is open, with -0.003
-    [-0.007, 0.0004] of t_max; as a case of its own it would leave the statement not settled.
-    """
     for scene, runs in pillars(evidence.records).items():
         maps = pillar_map(runs, scene.pattern)
         for ring, parts in _rings(scene.n_p):
@@ -87,14 +78,6 @@ def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     pillars, "the share of pillars whose parts detach in this order (mean t_det)", ranges.NEARLY_ALL
 )
 def always_in_order(run: Record) -> float:
-    """Test: on more than nine tenths of the single pillars, corners, edges across and along the
-    sliding direction and centre detach in this order, by the mean t_det of each part, both on the
-    border and on the second ring. Pillars of 4 blocks have only the border and the centre. If
-    “always” meant only that means over pillars and realisations follow this order whatever the
-    scatter of the thresholds, the statement would be reproduced: in other runs at n_p = 6, 10 and
-    20 with scatters of 0.02 and 0.2 (8 to 20 runs for each size and scatter), these means follow it
-    on both rings.
-    """
     rings = [list(parts.values()) for _, parts in _rings(run.scene.n_p)]
     ordered = [
         all(np.all(np.diff([pillar[part].mean() for part in parts]) > 0.0) for parts in rings)
@@ -110,19 +93,13 @@ def early_near_border(run: Record) -> float:
 
 
 def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
-    """Test: more than nine tenths of the blocks in the two outermost rings detach before t_max; or,
-    as in the paper's figure, the mean time of every part of these rings is before t_max; the last
-    part, which decides, is the edges along x of the second ring. At n_p = 4 the second ring is the
-    centre, which detaches even later; its mean time is not tested, and the edges along x are those
-    of the border. With a bound of 0.74 the statement would hold for single blocks at n_p = 7 to 60.
-    """
     blocks = "the share of blocks on the border or adjacent to it that detach before t_max"
     for scene, runs in pillars(evidence.records).items():
-        case = {"reading": "single blocks", **surfaces.case_of(scene)}
+        case = replace(surfaces.case_of(scene), part="single blocks")
         share = samples.share(over_runs(early_near_border, runs))
         yield found_on(scene, blocks, share, ranges.NEARLY_ALL, case=case)
     for scene, runs in pillars(evidence.records).items():
-        case = {"reading": "mean times", **surfaces.case_of(scene)}
+        case = replace(surfaces.case_of(scene), part="mean times")
         *_, (ring, parts) = _rings(scene.n_p)
         last = pillar_map(runs, scene.pattern)[:, parts[_RING["x"]]].mean(axis=1)
         name = f"t_det/t_max of the edges along x ({ring})"
@@ -137,12 +114,6 @@ def near_border(run: Record) -> float:
 
 
 def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """Test: most precursors lie in the two outermost rings of blocks, and less than half of them
-    are isolated, that is, detach before all of their neighbours in contact (as does the first block
-    of a region). If only blocks without a neighbour that detaches before t_max counted as isolated,
-    their share would be 0.67, 0.44 and 0.2 at n_p = 4, 5 and 6, and 0.02 or less on larger pillars,
-    so that n_p = 4 would still fail. Up to n_p = 6, nearly all blocks belong to these rings.
-    """
     for scene, runs in pillars(evidence.records).items():
         for what, quantity, claimed in (
             ("on the border or adjacent to it", near_border, ranges.MOST),
@@ -165,22 +136,10 @@ def inside(run: Record) -> Array:
     (-ranges.INF, 0.25),
 )
 def nucleation_near_edge(run: Record) -> float:
-    """Test: of all positions of a patch of 3 x 3 blocks in the area enclosed by the two outermost
-    rings, less than a quarter, on average, lie further out than the first patch to detach (that
-    with the earliest mean t_det); half of those equally far out are counted as further out. Nearly
-    all first patches lie at the very edge of the area, where the share is smallest; on the flat
-    surface, the share for the first patch is about a half. Smaller pillars have too few positions
-    for this bound. The verdict is the same if 1, 3 or 4 rings are left out, and for patches of 2 to
-    5 blocks a side.
-    """
     return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
 
 
 def centre_last(evidence: Evidence) -> Iterator[Finding]:
-    """Test: on pillars of 10 blocks or more, the central part, half to two thirds as wide as the
-    area enclosed by the two outermost rings, detaches after the rest of this area. At n_p = 7 to 9,
-    with a central part of 1 to 3 blocks a side, the test would hold as well.
-    """
     around = "the area between it and the two outermost rings"
     name = f"t_det/t_max of the central part minus that of {around}"
     for scene, runs in pillars(evidence.records, 10).items():
@@ -193,9 +152,6 @@ def centre_last(evidence: Evidence) -> Iterator[Finding]:
 
 @mean_over(pillars, "t_max - t_avg", ranges.POSITIVE, unit="s")
 def peak_after_average(run: Record) -> float:
-    """Test: the mean of t_max - t_avg over realisations is positive at every pillar size from n_p
-    = 4 on; the paper treats smaller ones as a case of their own.
-    """
     return run.t_max - run.t_avg
 
 
@@ -205,10 +161,6 @@ def peak_after_average(run: Record) -> float:
     ranges.NEARLY_ALL,
 )
 def front_after_peak(run: Record) -> float:
-    """Test: more than nine tenths of the blocks enclosed by the two outermost rings detach after
-    t_max. On pillars of 7 to 30 blocks this share is also 0.91 to 0.93: what is peculiar to very
-    large pillars is the size of this part.
-    """
     return float(np.mean(inside(run) > run.t_max))
 
 
@@ -221,14 +173,6 @@ def warning(run: Run) -> float:
 
 
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
-    """Test: on pillars of 2 and of 3 blocks, (t_max - t_avg)/t_max, the share of precursors and the
-    width of the force peak (the time during which the force exceeds 95 % of its maximum, over
-    t_max) differ from those of the flat surface by less than half as much, in magnitude, as those
-    of larger pillars do. The comparison with each larger size is a case, since the paper does not
-    say which it means. Pillars of 20 blocks or more are themselves nearer to the flat surface than
-    those of 7 to 10; without the former the verdict would be the same. Static friction may differ,
-    as in the paper.
-    """
     quantities: Mapping[str, Quantity] = {
         "(t_max - t_avg)/t_max": samples.relative_lag,
         "the share of precursors": samples.before_peak,
@@ -237,7 +181,7 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
     small = [scene for scene in pillars(evidence.records, 0) if scene.n_p < surfaces.SMALLEST]
     larger = pillars(evidence.records)
     for flat, scene, other in product(surfaces.flat(evidence.records), small, larger):
-        case = {**surfaces.case_of(scene), "against n_p": other.n_p}
+        case = Case(n_p=scene.n_p, against_n_p=other.n_p)
         for name, quantity in quantities.items():
             three = [over_runs(quantity, evidence.records[s]) for s in (scene, flat, other)]
             away = samples.magnitude(samples.position(*three))
@@ -264,10 +208,6 @@ def many_precursors(evidence: Evidence) -> Iterator[Finding]:
 
 
 def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
-    """Test: on pillars with n_p >= 6, for which the paper finds precursors numerically relevant,
-    the force peak is wider than on the flat surface. Its width is the time during which the force
-    exceeds 95 % of its maximum. The peak is also wider on pillars of 2 to 5 blocks.
-    """
     return _above_flat(evidence, {f"{_WIDTH}, over t_max": samples.width})
 
 
@@ -288,28 +228,20 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
     for end in (scenes[0], scenes[-1]) if scenes else ():
         best = _lowest(evidence, scenes[1:-1]).place
         name = f"static friction at n_p = {end.n_p} minus that at n_p = {best.n_p}, the lowest mean"
-        yield samples.compared(evidence, name, samples.static_friction, end, best, case={})
+        yield samples.compared(evidence, name, samples.static_friction, end, best, case=Case())
 
 
 def sharper_again(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the force peak is narrower (statement 37 defines its width) than at the size with the
-    lowest mean static friction.
-    """
     scenes = _of_all_sizes(evidence)
     if scenes:
         best, largest = _lowest(evidence, scenes[:-1]).place, scenes[-1]
         name = f"{_WIDTH}, over t_max, at n_p = {largest.n_p} minus that at n_p = {best.n_p}"
-        yield samples.compared(
-            evidence, name, samples.width, largest, best, ranges.NEGATIVE, case={}
-        )
+        narrower, case = ranges.NEGATIVE, Case()
+        yield samples.compared(evidence, name, samples.width, largest, best, narrower, case)
 
 
 @share_over(_large, _PRECURSORS, ranges.NEGLIGIBLE)
 def negligible_edges(run: Record) -> float:
-    """Test: less than a tenth of the blocks are precursors. The two outermost rings alone hold 13 %
-    of the blocks at n_p = 60; with only the precursors in these rings, 0.113 of the blocks, the
-    verdict would be the same.
-    """
     return samples.before_peak(run)
 
 
@@ -325,22 +257,12 @@ def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
 
 
 def size_like_length(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the pillar size of lowest static friction is within a factor of two of l_c, with the
-    paper's scatter of the thresholds and with others, which change l_c. A size is a candidate for
-    that of lowest friction if its mean friction exceeds the lowest by an amount whose interval
-    reaches down to 0.001 or less; 0.001 is about the largest numerical error of static friction on
-    pillars. The value given is that for the size with the lowest mean; the interval covers all
-    candidates. With other scatters only n_p = 3, 6, 10, 20 and 30 were simulated; the intervals do
-    not include the error of so coarse a choice. l_c is fitted at n_p = 30, with exp(-r/l_c) and
-    with A exp(-r/l_c). One case holds, that of the paper's scatter with A exp(-r/l_c); if the
-    statement were read as existential (“can”), it would be reproduced. With l_c fitted at n_p = 20
-    or 60 this case would be open (the intervals end at 2.05 and 2.02); as no case would hold then,
-    the statement would not be reproduced. With scatters of 0.02 and 0.05, l_c is nearly as long as
-    the sides of 30 blocks on which it is fitted. With l_c fitted at n_p = 20, the four cases of
-    these scatters would be open; with l_c fitted at n_p = 10, the two of them with exp(-r/l_c)
-    would hold and the two with A exp(-r/l_c) would fail. With the paper's scatter alone, and l_c
-    fitted at n_p = 30, the statement would not be settled.
-    """
+    found = _sizes_over_length(evidence)
+    yield from sorted(found, key=attrgetter("case.fit"))  # all scatters are one case
+
+
+def _sizes_over_length(evidence: Evidence) -> Iterator[Finding]:
+    """Yield the size of lowest static friction over l_c for each scatter and each fit."""
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
         candidates = scenes if own else _of_all_sizes(evidence)
@@ -348,13 +270,15 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
         sizes = [scene.n_p for scene in _lowest(evidence, candidates).alike]
         fit = Correlation(side_times(runs, broad.pattern, surfaces.ALONG)).length()
         minimum = f"n_p = {' or '.join(map(str, sizes))}"
-        name = f"the size of lowest static friction ({minimum}) over l_c at n_p = {broad.n_p}"
+        name = (
+            f"the size of lowest static friction ({minimum}) over l_c at n_p = {broad.n_p}, with "
+            f"{_SCATTER} = {scatter:g}"
+        )
         for curve, fitted in ((ranges.PLAIN, fit.fitted), (ranges.SCALED, fit.tail)):
             value, low, high = map(float, fitted)
-            case: Case = {_SCATTER: scatter, "fit": curve}
             ratios = [Estimate(n_p / value, n_p / high, n_p / low, len(runs)) for n_p in sizes]
             source = surfaces.in_files(*dict.fromkeys([*candidates, broad]))
-            yield Finding(case, name, AnyOf.these(*ratios), ranges.COMPARABLE, source)
+            yield Finding(Case(fit=curve), name, AnyOf.these(*ratios), ranges.COMPARABLE, source)
 
 
 def _over_t_avg(quantity: Quantity) -> Quantity:
@@ -393,34 +317,13 @@ def _larger_there(
 
 
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """Test: there are more precursors where static friction is lowest than at any other pillar
-    size. Statement 41 defines the candidates for the size of lowest friction. Each size is compared
-    with all candidates other than itself; the value is the share at n_p = 6 (for n_p = 6, that at
-    7) minus that at the size, and the interval covers all differences. Its upper limit is set to
-    infinity if the outcome depends on which candidate has the lowest friction, or if the size is
-    itself a candidate; if such a case is open, more realisations with the same step would not
-    decide it. With the default step, 2e-8 s, static friction at n_p = 6 is lower than at 7 by
-    0.0006 [0.0002, 0.0010]. This step raises friction by 0.0002 at 6 and by 0.0006 at 7 (300
-    realisations of each size, 100 of which were repeated with a step of 5e-9 s); without this bias
-    the difference, calculated before rounding, is 0.0001 [-0.0004, 0.0006]. To decide which is
-    lower would take more than ten thousand realisations with a step of 5e-9 s. If friction is
-    lowest at 6 the statement fails, if at 7 it holds.
-    """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 
 
 def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the width of the force peak (see statement 37), divided by t_avg, is larger where
-    static friction is lowest than on the smallest and on the largest pillars. The interval covers
-    all candidates for the size of lowest friction (see statement 41).
-    """
     return _larger_there(evidence, f"{_WIDTH}, over t_avg", _over_t_avg(samples.width))
 
 
 def longest_transition(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the duration of the transition, divided by t_avg, is larger where static friction is
-    lowest than on the smallest and on the largest pillars. The interval covers all candidates for
-    the size of lowest friction (see statement 41).
-    """
     name = "the duration of the transition, over t_avg"
     return _larger_there(evidence, name, _over_t_avg(samples.lasting))

@@ -1,20 +1,20 @@
-"""Claims, their findings, and the rule that derives verdicts from intervals."""
+"""Statements, their findings, and the rule that derives verdicts from intervals."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
-from typing import Any
+from operator import attrgetter
+from typing import NamedTuple
 
 from springblock.analysis.estimate import Estimate
 from springblock.io.records import Record
-from springblock.io.rows import Row, listed
+from springblock.io.rows import Row, anchor
 from springblock.model.numbers import Array
 from springblock.model.scene import Scene
 
 Records = Mapping[Scene, Sequence[Record]]  #: realisations
 RowsByScene = Mapping[Scene, Sequence[Row]]  #: of a table
-Case = Mapping[str, str | int | float]
 Range = tuple[float, float]
 
 ENOUGH = 20  #: realisations that a surface needs to be tested
@@ -23,9 +23,31 @@ _MANY = 10**6  #: effectively infinite number of realisations
 _WORST_FIRST = ("fails", "open", "holds")
 
 
+@dataclass(frozen=True)
+class Case:
+    """What a statement is tested on, and in which reading; None where it does not apply.
+
+    Each field is a column of the table `claims`.
+    """
+
+    n_p: int | None = None
+    against_n_p: int | None = None  #: of the pillars with which those of n_p are compared
+    n_p2: int | None = None
+    n_s2: int | None = None
+    n_p3: int | None = None
+    along_3: str | None = None
+    degrees: float | None = None  #: from the grooves to the sliding direction
+    side: str | None = None  #: of pillars: along "x", along "y", or along the "grooves"
+    constant: str | None = None  #: of the material
+    constant_value: float | None = None
+    integrator: str | None = None
+    fit: str | None = None  #: curve whose length is l_c
+    part: str | None = None  #: of the surface or of the statement, or reading of its words
+
+
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """Data that claims are tested on; scenes that were not simulated are absent."""
+    """Data that statements are tested on; scenes that were not simulated are absent."""
 
     records: Records = field(default_factory=dict)
     correlation: RowsByScene = field(default_factory=dict)
@@ -83,135 +105,74 @@ Test = Callable[[Evidence], Iterable[Finding]]
 
 
 @dataclass(frozen=True)
-class Claim:
-    """A statement of the paper, and how to test it."""
+class Statement:
+    """A statement of the paper, and how to test it; `statements.toml` explains its texts."""
 
-    name: str
+    number: int  #: on the page
+    id: str
+    title: str
     section: str  #: of the paper
+    figure: int  #: of the paper, to which the statement refers
     #: universal: always, only, all, uniform, necessary, negligible, the most; existential: can;
     #: general: all others.
     form: str
-    statement: str  #: the paper's words in quotation marks and, after "Test:", the criterion
-    figure: int  #: of the paper, to which the statement refers
+    words: str
+    criterion: str
+    remark: str
+    changed: str
     test: Test
 
+    @property
+    def heading(self) -> str:
+        """Heading of its part of the page."""
+        return f"{self.number}. {self.title}"
 
-def verdict(form: str, findings: Sequence[Finding]) -> tuple[str, str]:
-    """Judge a claim by its findings; return the verdict and the cases that decide it.
+    @property
+    def anchor(self) -> str:
+        """Anchor of this part."""
+        return anchor(self.heading)
+
+
+class Verdict(NamedTuple):
+    """A verdict with the number of cases that hold, and of all cases."""
+
+    word: str
+    holds: int
+    cases: int
+
+
+def verdict(form: str, findings: Sequence[Finding]) -> Verdict:
+    """Judge a statement by its findings.
 
     A case holds if all its findings hold, and fails if one fails.
 
-    - One failing case refutes a universal claim; one that holds suffices for an existential one.
-    - A general claim with cases that hold and cases that fail is "reproduced in part".
+    - One failing case refutes a universal statement; one that holds suffices for an existential
+      one.
+    - A general statement with cases that hold and cases that fail is "reproduced in part".
     - Without a failing case it is "not settled" while a case is open, otherwise "reproduced".
     - It is "not reproduced" where cases fail and none holds; an existential one only if all fail,
       otherwise it is "not settled" while a case is open.
     - It is "not tested" without findings.
     """
-    if not findings:
-        return "not tested", ""
-    cases = []
-    for case, group in groupby(findings, key=lambda finding: finding.case):
-        outcomes = [finding.outcome(len(findings)) for finding in group]
-        cases.append((case, min(outcomes, key=_WORST_FIRST.index)))
-    found = {outcome for _, outcome in cases}
+    cases = [
+        min((finding.outcome(len(findings)) for finding in group), key=_WORST_FIRST.index)
+        for _, group in groupby(findings, key=attrgetter("case"))
+    ]
+    return Verdict(_word(form, set(cases)), cases.count("holds"), len(cases))
+
+
+def _word(form: str, found: set[str]) -> str:
+    """Return the verdict from the outcomes of cases."""
+    if not found:
+        return "not tested"
     if form == "existential" and "holds" in found:
-        return "reproduced", boundary(cases, "holds")
+        return "reproduced"
     if form == "universal" and "fails" in found:
-        return "not reproduced", boundary(cases, "fails")
+        return "not reproduced"
     if {"holds", "fails"} <= found:
-        return "reproduced in part", boundary(cases, "holds", "fails", "open")
+        return "reproduced in part"
     if "fails" in found and form == "general":
-        return "not reproduced", boundary(cases, "fails", "open")
+        return "not reproduced"
     if "open" in found:
-        return "not settled", boundary(cases, "open")
-    return ("reproduced" if "holds" in found else "not reproduced"), ""
-
-
-#: A key of a case with its value, as part of a sentence.
-_PHRASES = {
-    "n_p": "at n_p = {}",
-    "against n_p": "against n_p = {}",
-    "n_p2": "with pawls of {} blocks",
-    "degrees": "at {}° to the grooves",
-    "surface": "on {}",
-    "side": "on {}",
-    "sides": "on sides {}",
-    "sliding": "when sliding {}",
-    "E in Pa": "at E = {} Pa",
-    "integrator": "with {}",
-    "mu_static_std": "at mu_static_std = {}",
-    "fit": "with the fit of {}",
-    "third level": "with third-level {}",
-}
-
-
-def phrase(key: str, value: str | int | float) -> str:
-    """Write a key of a case with its value, or a list of values, as part of a sentence."""
-    try:
-        value = f"{float(value):g}"
-    except ValueError:
-        value = str(value)
-    other = f"for {key} = {{}}" if value[:1].isdigit() else "for {}"
-    return _PHRASES.get(key, other).format(value)
-
-
-def boundary(cases: Sequence[tuple[Case, str]], *outcomes: str) -> str:
-    """Name the cases that have these outcomes, in a sentence; "" if all have the same outcome.
-
-    They are named by the first key that separates the outcomes by itself, or else by all keys that
-    differ between cases. Successive values of a key form a range.
-    """
-    keys = dict.fromkeys(key for case, _ in cases for key in case)
-    differing = [key for key in keys if len({case.get(key) for case, _ in cases}) > 1]
-    if len({outcome for _, outcome in cases}) < 2 or not differing:
-        return ""
-    seen = {key: {(case.get(key), outcome) for case, outcome in cases} for key in differing}
-    alone = [key for key in differing if len(dict(seen[key])) == len(seen[key])]
-    parts = []
-    for outcome in outcomes:
-        if where := _phrases(cases, alone[:1] or differing, outcome):
-            verb = "is open" if outcome == "open" else outcome
-            parts.append(f"it {verb} {listed(where)}")
-    return capitalised(f"{'; '.join(parts)}.")
-
-
-def _phrases(cases: Sequence[tuple[Case, str]], keys: Sequence[str], outcome: str) -> list[str]:
-    """Name the cases with an outcome, by the first key and, within its values, by the others."""
-    if not any(found == outcome for _, found in cases):
-        return []
-    key, *others = keys
-    if not others:
-        values = [case.get(key, "") for case, _ in cases]
-        return [phrase(key, listed(_ranges(values, [found == outcome for _, found in cases])))]
-    limited, whole = [], []
-    for value in dict.fromkeys(case.get(key, "") for case, _ in cases):
-        group = [(case, found) for case, found in cases if case.get(key, "") == value]
-        if all(found == outcome for _, found in group):
-            whole.append(phrase(key, value))
-        else:
-            limited += [f"{phrase(key, value)} {part}" for part in _phrases(group, others, outcome)]
-    return limited + whole  # so that no limit seems to apply to all phrases
-
-
-def _ranges(values: Sequence[Any], chosen: Sequence[bool]) -> list[str]:
-    """Return the chosen values in order; three or more successive numbers as "a to b"."""
-    pairs = dict.fromkeys(zip(values, chosen, strict=True))
-    if not all(isinstance(value, int | float) for value in values):
-        return [str(value) for value, taken in pairs if taken]
-    names = []
-    for taken, successive in groupby(sorted(pairs), key=lambda pair: pair[1]):
-        run = [f"{value:g}" for value, _ in successive] if taken else []
-        names += run if len(run) < 3 else [f"{run[0]} to {run[-1]}"]
-    return names
-
-
-def capitalised(text: str) -> str:
-    """Return the text with a capital first letter, unless it begins with a symbol."""
-    first = text.partition(" ")[0]
-    return text[:1].upper() + text[1:] if first.isalpha() else text
-
-
-def describe(case: Case) -> str:
-    """Write a case as "key = value, ..."."""
-    return ", ".join(f"{key} = {value}" for key, value in case.items())
+        return "not settled"
+    return "reproduced" if "holds" in found else "not reproduced"

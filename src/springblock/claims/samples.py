@@ -114,7 +114,7 @@ def found_on(
     beside: Iterable[Scene] = (),
 ) -> Finding:
     """Return a finding on a scene, by default with its lengths as the case."""
-    case = surfaces.case_of(scene) if case is None else case
+    case = case or surfaces.case_of(scene)
     return Finding(case, statistic, estimate, claimed, surfaces.in_files(scene, *beside), unit)
 
 
@@ -196,9 +196,9 @@ def width(run: Run) -> float:
     return float(samples * (run.time[1] - run.time[0]) / run.t_max)
 
 
-def lasting(run: Run) -> float:
-    """Return the time between a tenth and nine tenths of the first detachments, over t_max."""
-    early, late = np.nanquantile(run.t_det, (0.1, 0.9))
+def lasting(run: Run, first: float = 0.1) -> float:
+    """Return the time from a share of the first detachments to all but this share, over t_max."""
+    early, late = np.nanquantile(run.t_det, (first, 1.0 - first))
     return float(late - early) / run.t_max
 
 

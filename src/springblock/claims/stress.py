@@ -39,9 +39,8 @@ def elastic_forces(scene: Scene, material: Material) -> Array:
 
 
 def _exactly(statistic: str, value: float, claimed: Range, *scenes: Scene) -> Finding:
-    """Return a finding without scatter on some surfaces, whose lengths are its case."""
-    exact = Estimate(float(value), float(value), float(value))
-    case = {key: value for scene in reversed(scenes) for key, value in case_of(scene).items()}
+    """Return a finding without scatter on some surfaces; the lengths of the first are its case."""
+    exact, case = Estimate(float(value), float(value), float(value)), case_of(scenes[0])
     return Finding(case, statistic, exact, claimed, surfaces.in_files(*scenes, folder="surface of"))
 
 
@@ -60,9 +59,6 @@ def _along(evidence: Evidence, scene: Scene) -> Array:
 
 
 def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the mean stress on the edges of pawls is larger when sliding across the grooves, both
-    on surfaces with grooves alone and on grooved pillars.
-    """
     name = f"the edge stress when sliding across the grooves minus that along them, {_OVER_MEAN}"
     for along in chain(*(slid_both_ways(evidence.stress, level) for level in (1, 2))):
         scenes, edges = (across(along), along), surfaces.edge(along.pattern.contact)
@@ -71,10 +67,6 @@ def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
 
 
 def trivial_stress(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the standard deviation of the stress is below a tenth of its mean. With a bound above
-    0.22 the statement would be reproduced, but pillars of 30 and 60 blocks (0.21 and 0.16) would
-    then also count as uniform.
-    """
     name = "the standard deviation of the stress over its mean"
     for scene in (s for s in pillars(evidence.stress, 2) if s.n_p < surfaces.SMALLEST):
         deviation = float(np.nanstd(_modulus(evidence, scene)))
@@ -82,10 +74,6 @@ def trivial_stress(evidence: Evidence) -> Iterator[Finding]:
 
 
 def same_stress(evidence: Evidence) -> Iterator[Finding]:
-    """Test: on every pillar, the rms deviation of the stress from that on the mean pillar (the mean
-    over all pillars, block by block) is at most a fifth of the standard deviation of the stress
-    over the blocks of the mean pillar.
-    """
     largest = "the largest rms deviation of a pillar's stress from the mean pillar's"
     name = f"{largest}, over the latter's standard deviation"
     for scene in pillars(evidence.stress):
@@ -97,10 +85,6 @@ def same_stress(evidence: Evidence) -> Iterator[Finding]:
 
 
 def larger_across(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the stress component along the sliding direction is larger on edges across this
-    direction than on edges along it. Neighbours load the former in tension or compression and the
-    latter in shear; the slider loads all blocks equally.
-    """
     edges = "edges across the sliding direction minus that on edges along it"
     name = f"the stress on {edges}, {_OVER_MEAN}"
     for scene in pillars(evidence.stress):
@@ -130,12 +114,6 @@ def rank_correlation(field: Array, maps: Array) -> Estimate:
 
 
 def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
-    """Test: Spearman's correlation, over the blocks of a pillar, between stress and the block's
-    mean t_det, divided by the largest magnitude that it can have where several blocks bear equal
-    stress, is below -0.5. At n_p = 60, 93 % of the blocks bear equal stress, so that the test
-    concerns only the order within the border and that of border and interior; without the division
-    this size would fail, and the statement would be reproduced in part.
-    """
     name = (
         "the rank correlation of initial stress and mean t_det on a pillar, over its largest "
         "possible magnitude"
@@ -149,10 +127,6 @@ def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
 
 
 def more_uniform(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the standard deviation of the stress is smaller than on the same pillars without
-    grooves. With grooves it is larger in all cases. The largest stress over its mean is smaller
-    with grooves than without, in all cases: with this measure the statement would be reproduced.
-    """
     name = "the standard deviation of the stress over its mean, with grooves minus without"
     for scene in surfaces.grooved(evidence.stress):
         plain = replace(scene, n_p2=0, n_s2=0)
@@ -162,9 +136,6 @@ def more_uniform(evidence: Evidence) -> Iterator[Finding]:
 
 
 def external_bear_more(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the mean stress component along the sliding direction is larger on the external sides
-    of a pillar, transverse and longitudinal, than on the sides that border the grooves.
-    """
     for scene in slid_both_ways(evidence.stress):
         forces = _along(evidence, scene)
         parts = {n: float(forces[mask].mean()) for n, mask in surfaces.grooved_parts(scene).items()}
@@ -175,10 +146,6 @@ def external_bear_more(evidence: Evidence) -> Iterator[Finding]:
 
 
 def equal_parts(evidence: Evidence) -> Iterator[Finding]:
-    """Test: four to six tenths of the contact blocks are beside a block without contact. With edges
-    two blocks wide it would hold only with pawls of 8 and 10 blocks, and the verdict would be the
-    same.
-    """
     name = "the share of the contact blocks that belong to the edge"
     for scene in slid_both_ways(evidence.stress):
         share = surfaces.edge(scene.contact).sum() / scene.contact.sum()

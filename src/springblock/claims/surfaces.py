@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.claims.rule import Case, describe
+from springblock.claims.rule import Case
 from springblock.model.scene import Scene
 
 T = TypeVar("T")
@@ -53,12 +53,9 @@ def slid_both_ways(table: Mapping[Scene, T], level: int = 2) -> dict[Scene, T]:
 
 
 def case_of(scene: Scene) -> Case:
-    """Return the case of a surface: its pawls, if it is grooved, or else its pillars."""
-    if scene.n_p2 and not scene.n_p:
-        return {"surface": f"pawls of {scene.n_p2} between grooves of {scene.n_s2} (no pillars)"}
-    if scene.n_p2:
-        return {"n_p2": scene.n_p2}
-    return {"n_p": scene.n_p} if scene.n_p else {}
+    """Return the case of a surface: the lengths of its pillars and pawls."""
+    names = ("n_p", "n_p2", "n_s2", "n_p3", "along_3")
+    return Case(**{name: getattr(scene, name) or None for name in names})
 
 
 def in_files(*scenes: Scene, folder: str = "realisations") -> str:
@@ -69,7 +66,7 @@ def in_files(*scenes: Scene, folder: str = "realisations") -> str:
 def in_rows(table: str, scene: Scene, **more: str | int) -> str:
     """Name rows of a table of correlations of this scene."""
     keys = {"N": scene.n_blocks, **scene.names, "direction": scene.direction, **more}
-    return f"tables/{table}: {describe(keys)}"
+    return f"tables/{table}: {', '.join(f'{key} = {value}' for key, value in keys.items())}"
 
 
 def pillars_of(field: NDArray[Any], scene: Scene) -> list[NDArray[Any]]:
@@ -85,7 +82,10 @@ def from_edge(size: int) -> NDArray[np.intp]:
 
 
 def edge(contact: Mask) -> Mask:
-    """Return the contact blocks with one of four neighbours out of contact."""
+    """Return the contact blocks with one of four neighbours out of contact.
+
+    The border of the surface is no edge: the layer ends there, and nothing pulls on its blocks.
+    """
     return contact & ~core(contact)
 
 
@@ -93,19 +93,19 @@ def core(contact: Mask) -> Mask:
     """Return the contact blocks that do not belong to the edge."""
     from scipy.ndimage import binary_erosion  # slow to import
 
-    return np.asarray(binary_erosion(contact))
+    return np.asarray(binary_erosion(contact, border_value=1))
 
 
 def grooved_parts(scene: Scene) -> dict[str, Mask]:
     """Return masks over a grooved pillar, [y_p, x_p], of its parts in the paper's order."""
-    contact, size = pillars_of(scene.contact, scene)[0], scene.n_p
-    rows, columns = np.indices(contact.shape)
+    contact, edges = (pillars_of(each, scene)[0] for each in (scene.contact, edge(scene.contact)))
+    (rows, columns), size = np.indices(contact.shape), scene.n_p
     transverse = contact & ((columns == 0) | (columns == size - 1))
     external = contact & ~transverse & ((rows == 0) | (rows == size - 1))
-    internal = edge(contact) & ~transverse & ~external
+    internal = edges & ~transverse & ~external
     return {
         "transverse sides": transverse,
         "external longitudinal sides": external,
         "sides along the grooves": internal,
-        "inside of the pawls": core(contact),
+        "inside of the pawls": contact & ~edges,
     }

@@ -1,6 +1,7 @@
 """The table `claims`: one row per finding."""
 
 from collections.abc import Iterable
+from dataclasses import asdict
 
 import numpy as np
 import pyarrow as pa
@@ -8,11 +9,11 @@ import pyarrow as pa
 from springblock.analysis.estimate import UNKNOWN
 from springblock.claims.rule import (
     ENOUGH,
-    Claim,
+    Case,
     Evidence,
     Finding,
     RowsByScene,
-    describe,
+    Statement,
     verdict,
 )
 from springblock.claims.stress import elastic_forces
@@ -21,14 +22,35 @@ from springblock.io.rows import Row
 from springblock.io.schemas import column, numbers, texts
 from springblock.model.scene import Scene
 
+#: Columns that tell the cases of a statement apart, null where they do not.
+CASE = [
+    field.with_nullable(True)
+    for field in (
+        column("n_p", pa.int32(), "blocks", "side of a pillar"),
+        column("against_n_p", pa.int32(), "blocks", "side of the pillars compared with"),
+        column("n_p2", pa.int32(), "blocks", "width of a pawl"),
+        column("n_s2", pa.int32(), "blocks", "width of a groove"),
+        column("n_p3", pa.int32(), "blocks", "size of the parts of a pawl"),
+        column("along_3", pa.string(), "x or y", "direction of the grooves of level 3"),
+        column("degrees", pa.float64(), "°", "angle from the grooves to the sliding direction"),
+        column("side", pa.string(), "1", "sides of pillars: along x or y, or the grooves"),
+        column("constant", pa.string(), "1", "constant of the material"),
+        column("constant_value", pa.float64(), "SI", "its value"),
+        column("integrator", pa.string(), "1", "integrator"),
+        column("fit", pa.string(), "1", "curve fitted to c(r), whose length is l_c"),
+        column("part", pa.string(), "1", "part of a surface, or reading of the paper's words"),
+    )
+]
 SCHEMA = pa.schema(
     [
         *texts(
-            claim="short name of the statement",
+            id="name of the statement in the code",
+            claim="title of the statement",
             section="section of the paper",
             form="universal, general or existential",
-            statement='the paper\'s words, and after "Test:" the criterion',
-            case="surface, part or reading that the row is about",
+        ),
+        *CASE,
+        *texts(
             statistic="definition of the value",
             unit="unit of the numbers from value to claimed_high",
         ),
@@ -54,35 +76,33 @@ SCHEMA = pa.schema(
         ),
         *texts(
             verdict="verdict on the statement, from all its rows",
-            boundary="where the statement holds and where it fails",
+        ),
+        column("holds", pa.int32(), "1", "cases of the statement that hold"),
+        column("cases", pa.int32(), "1", "all its cases; 0 if not tested"),
+        *texts(
             rests_on="files, scenes and rows behind the value, separated by ';'",
         ),
     ]
 )
-_WANTED = (
-    f"missing: surfaces with {ENOUGH} realisations each, or tables, with which the study of "
-    "`config/full.yaml` has a verdict"
-)
-_MISSING = Finding({}, "", UNKNOWN, (np.nan, np.nan), _WANTED)
+_MISSING = Finding(Case(), "", UNKNOWN, (np.nan, np.nan), "")
 
 
-def rows(claims: Iterable[Claim], evidence: Evidence) -> list[Row]:
-    """Test every claim: a row for each finding, or one without, if data are missing."""
+def rows(statements: Iterable[Statement], evidence: Evidence) -> list[Row]:
+    """Test every statement: a row for each finding, or one without, if data are missing."""
     table: list[Row] = []
-    for claim in claims:
-        findings = list(claim.test(evidence))
-        judged, where = verdict(claim.form, findings)
-        same = {"claim": claim.name, "section": claim.section, "form": claim.form}
-        same |= {"statement": claim.statement, "verdict": judged, "boundary": where}
-        table += [same | _measured(each, max(1, len(findings))) for each in findings or [_MISSING]]
+    for each in statements:
+        findings = list(each.test(evidence))
+        word, holds, cases = verdict(each.form, findings)
+        same: Row = {"id": each.id, "claim": each.title, "section": each.section}
+        same |= {"form": each.form, "verdict": word, "holds": holds, "cases": cases}
+        table += [same | _measured(one, max(1, len(findings))) for one in findings or [_MISSING]]
     return table
 
 
 def _measured(finding: Finding, together: int) -> Row:
     """Return the columns of one finding of several `together`."""
     estimate, (low, high) = finding.estimate, finding.estimate.limits(together)
-    return {
-        "case": describe(finding.case),
+    return asdict(finding.case) | {
         "statistic": finding.statistic,
         "unit": finding.unit,
         "value": estimate.value,

@@ -23,6 +23,12 @@ def markdown_table(header: Sequence[str], lines: Iterable[Sequence[str]]) -> str
     return "\n".join("| " + " | ".join(line) + " |" for line in cells)
 
 
+def anchor(heading: str) -> str:
+    """Return the anchor that Markdown gives to a heading."""
+    kept = "".join(c for c in heading.lower() if c.isalnum() or c in " -_")
+    return kept.replace(" ", "-")
+
+
 def listed(names: Sequence[str]) -> str:
     """Join names as a sentence does."""
     return " and ".join(filter(None, [", ".join(names[:-1]), *names[-1:]]))

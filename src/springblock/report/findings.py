@@ -1,6 +1,5 @@
 """Numbers of a study's findings, from its tables; `findings.html` puts them into prose."""
 
-import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
@@ -119,12 +118,12 @@ def _correlation(tables: Tables) -> dict[str, Any]:
         "fits": [
             (letters, [(size, _quoted(row)) for size, row in _by_size(own).items()])
             for curve, letters in _FITS.items()
-            if (own := [row for row in rows if row["case"].startswith(f"fit = {curve}")])
+            if (own := select(rows, fit=curve))
         ],
         "growth": [
             (length, _sign(_interval(row), "decreases", "increases", ""), _quoted(row))
             for curve, (_, length) in _FITS.items()
-            for row in select(growth, case=f"fit = {curve}")
+            for row in select(growth, fit=curve)
         ],
     }
 
@@ -136,9 +135,12 @@ def _peaks(tables: Tables) -> dict[str, Any]:
     if not along:
         return {}
     failing = select(alone, outcome="fails")
-    named = ((row["case"].removeprefix("surface = "), row) for row in failing)
     # On pillars alone, most of the prominence comes from the fluctuations of single runs.
-    others = {name: row for name, row in named if not name.startswith("pillars")}
+    others = {
+        f"pawls of {row['n_p2']} between grooves of {row['n_s2']} (no pillars)": row
+        for row in failing
+        if not row["n_p"]
+    }
     ordered = sorted(along.items(), key=lambda pair: -pair[1]["value"])
     return {
         "title": "Two load peaks do not need hierarchy" if others else "When the load peaks twice",
@@ -156,9 +158,8 @@ def _tested(tables: Tables, claim: str) -> list[Row]:
 
 
 def _by_size(rows: Iterable[Row]) -> dict[int, Row]:
-    """Return rows of the table `claims` by the size, n_p or n_p2, that their case names."""
-    found = ((re.search(r"n_p2? = (\d+)", row["case"]), row) for row in rows)
-    return {int(size[1]): row for size, row in found if size}
+    """Return rows of the table `claims` by n_p2 or else n_p of their case."""
+    return {size: row for row in rows if (size := row["n_p2"] or row["n_p"])}
 
 
 def _interval(row: Row) -> Interval:

@@ -10,7 +10,7 @@ from markdown_it import MarkdownIt
 from markdown_it.token import Token
 from markupsafe import Markup, escape
 
-from springblock.claims.page import anchor
+from springblock.io.rows import anchor
 from springblock.io.schemas import said
 
 #: Symbols with an index, which the paper prints below the line; parts of paths have none.

@@ -13,8 +13,7 @@ from markupsafe import Markup
 
 from springblock.analysis.ensembles import constants, ensembles
 from springblock.analysis.means import UNITS, changes_from_first, in_words, means
-from springblock.claims import CLAIMS
-from springblock.claims.page import anchor, counted, decided, numbered_parts
+from springblock.claims.summary import Judged, counted, judged
 from springblock.io.parquet import load, origin_of
 from springblock.io.rows import Row, listed
 from springblock.model.material import Material
@@ -31,7 +30,6 @@ SHOWN = {
     "correlation": ("figure_7",),
     "peaks": ("figure_9",),
 }
-_FIGURES = {claim.name: f"figure_{claim.figure}" for claim in CLAIMS}
 _HERE = Path(__file__).parent
 
 Figures = dict[str, dict[str, Any]]  #: by name
@@ -103,7 +101,7 @@ def _of_study(
     """Return findings, statements and the parts of the page of a study."""
     found = findings.findings(rows)
     placed = {MODEL, *(name for finding in found for name in SHOWN[finding])}
-    claims = rows.get("claims", [])
+    claims = judged(rows.get("claims", []))
     mechanism = pages.get("mechanism", markup.Page(""))
     return {
         "findings": found,
@@ -111,28 +109,24 @@ def _of_study(
         "reasons": {"friction": mechanism.opening},
         "model": figures.get(MODEL),
         "statements": statements(claims),
-        "counted": counted(numbered_parts(claims)),
+        "counted": counted(claims),
         "parts": _parts(figures, pages, placed),
         "version": version("springblock"),
     }
 
 
-def statements(table: Sequence[Row]) -> list[Row]:
-    """Return the first row of each statement of the table `claims`, with what the page adds to it.
-
-    That is the paper's words and the criterion, its figure, what decided its verdict, and the
-    anchor of its part of the page.
-    """
+def statements(parts: Iterable[Judged]) -> list[dict[str, Any]]:
+    """Return each statement with its verdict, its figure, and its anchor on the page."""
     return [
         {
-            **part[0],
-            "words": part[0]["statement"].partition(" Test: ")[0],
-            "criterion": part[0]["statement"].partition(" Test: ")[2],
-            "figure": _FIGURES.get(part[0]["claim"]),
-            "decided": decided(part),
-            "anchor": "claims-" + anchor(f"{number}. {part[0]['claim']}"),
+            **part.rows[0],
+            "words": part.statement.words,
+            "criterion": part.statement.criterion,
+            "figure": f"figure_{part.statement.figure}",
+            "decided": f"{part.holds} of {part.cases} cases hold.",
+            "anchor": f"claims-{part.statement.anchor}",
         }
-        for number, part in numbered_parts(table)
+        for part in parts
     ]
 
 
