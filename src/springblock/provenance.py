@@ -3,6 +3,7 @@
 import ast
 import hashlib
 import json
+import tomllib
 from collections.abc import Mapping
 from functools import cache
 from importlib.metadata import version
@@ -15,8 +16,8 @@ _PHYSICS = ("model", "solver", "simulation", "io")
 _STATEMENTS = ("model", "io", "analysis", "accuracy", "mechanism")
 
 #: Folders of the package whose code determines the results of each step of the study, and the files
-#: of words that a page consists of. The command line is not among them, since it only arranges,
-#: nor are descriptions of columns and the study's folder.
+#: of words that a page consists of, or keys of such a file. The command line is not among them,
+#: since it only arranges, nor are descriptions of columns and the study's folder.
 STEPS: dict[str, tuple[str, ...]] = {
     "compile": ("solver",),
     "mask": ("model",),
@@ -24,15 +25,16 @@ STEPS: dict[str, tuple[str, ...]] = {
     "analyse": ("model", "io", "analysis"),
     "accuracy": (*_PHYSICS, "analysis", "accuracy"),
     "mechanism": (*_PHYSICS, "analysis", "mechanism"),
-    "claims": (*_STATEMENTS, "claims", "claims/statements.md"),
+    "claims": (*_STATEMENTS, "claims", "claims/statements.toml title section form"),
     "plot": ("model", "io", "analysis", "accuracy", "mechanism", "beyond", "plotting"),
     "accuracy.md": ("model", "io", "analysis", "accuracy", "pages", "pages/accuracy.md"),
     "mechanism.md": ("model", "io", "analysis", "mechanism", "mechanism/page.md"),
-    "claims.md": (*_STATEMENTS, "claims", "claims/*.md"),
+    "claims.md": (*_STATEMENTS, "claims", "claims/statements.toml", "pages", "pages/claims.md"),
     "beyond.md": ("model", "io", "analysis", "mechanism", "beyond", "beyond/page.md"),
     "report": (
         *(*_STATEMENTS, "beyond", "claims", "plotting", "report"),
-        *("claims/*.md", "report/*.html", "report/*.css", "report/*.js"),
+        *("claims/statements.toml", "claims/full_study.csv"),
+        *("report/*.html", "report/*.css", "report/*.js"),
     ),
 }
 #: Modules of descriptions alone.
@@ -70,9 +72,14 @@ def configuration_digest(configuration: Mapping[str, Any]) -> str:
 
 @cache
 def _of(part: str) -> str:
-    """Return the digest of the code in a folder, or of the words in files."""
+    """Return the digest of the code in a folder, or of the words in files or under some keys."""
     if "." in part:
-        return _short("".join(file.read_text("utf-8") for file in sorted(_ROOT.glob(part))))
+        name, *keys = part.split()
+        words = "".join(file.read_text("utf-8") for file in sorted(_ROOT.glob(name)))
+        if keys:
+            entries = tomllib.loads(words).items()
+            words = repr([(entry, [values.get(key) for key in keys]) for entry, values in entries])
+        return _short(words)
     texts = []
     for file in sorted((_ROOT / part).rglob("*.py")):
         if file.name not in _DESCRIBING:

@@ -17,7 +17,7 @@ from springblock.analysis.statistics import mean_interval, proportion_interval, 
 from springblock.claims import STATEMENTS, full_study, statements
 from springblock.claims.rule import Case, Evidence, Finding, Statement, verdict
 from springblock.claims.stress import elastic_forces
-from springblock.claims.summary import Judged, _clearness, content
+from springblock.claims.summary import Judged, _clearness, values
 from springblock.claims.table import CASE, SCHEMA, rows
 from springblock.io.parquet import rows_to_table, write
 from springblock.model.scene import Scene
@@ -179,7 +179,7 @@ def test_a_case_has_the_columns_of_the_table():
 
 
 def judged(statement: Statement) -> Judged:
-    (part,) = content(rows([statement], Evidence()))["parts"]
+    (part,) = values(rows([statement], Evidence()))["parts"]
     return part
 
 
@@ -206,7 +206,7 @@ def test_the_table_of_findings_has_the_columns_that_tell_cases_apart():
 
 
 def test_the_page_has_each_statement_with_its_number_mark_and_count():
-    page = rendered("claims.md", **content(rows([GROWS, *STATEMENTS[:2]], Evidence())))
+    page = rendered("claims.md", **values(rows([GROWS, *STATEMENTS[:2]], Evidence())))
     (line,) = (line for line in page.splitlines() if line.startswith(f"| [{GROWS.heading}]"))
     assert line.split(" | ")[1:5] == ["general", "**reproduced in part**", "1 of 2", "changed"]
     assert f"\n## {GROWS.heading}\n" in page

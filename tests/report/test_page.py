@@ -9,7 +9,7 @@ import pytest
 from springblock.claims import STATEMENTS
 from springblock.claims.ranges import PLAIN, SCALED
 from springblock.claims.rule import Case, Evidence
-from springblock.claims.summary import content, counted, judged
+from springblock.claims.summary import counted, judged, values
 from springblock.claims.table import rows
 from springblock.cli import main
 from springblock.io.records import read_records
@@ -62,7 +62,7 @@ def test_no_minimum_is_claimed_where_the_statement_was_not_tested():
     assert found(claims=claims) == {}
 
 
-def tested_row(claim, value, verdict="reproduced", outcome="holds", **case):
+def found_row(claim, value, verdict="reproduced", outcome="holds", **case):
     """A row of the table of statements, on one that the study does test."""
     assert claim in {each.title for each in STATEMENTS}
     limits = {"together_low": value - 0.01, "together_high": value + 0.01, "claimed_low": 0.01}
@@ -77,16 +77,16 @@ def test_findings_take_their_numbers_from_the_statements():
         "Without hierarchy one load peak",
     )
     claims = [
-        tested_row("Lowest static friction at an intermediate n_p", 0.17),
-        tested_row("Order of detachment on a pillar", 0.1, n_p=6),
-        tested_row("The order of detachment never changes", 0.33, "not reproduced", "fails", n_p=6),
-        tested_row(length, 2.7, fit=PLAIN, n_p=20),
-        tested_row(length, 3.6, fit=SCALED, n_p=20),
-        tested_row("Correlation length grows with n_p", -0.005, "not settled", "open", fit=SCALED),
-        tested_row(peaks, 0.004, outcome="fails", n_p=58, n_p2=4),
-        tested_row(peaks, 0.028, n_p=58, n_p2=8),
-        tested_row(alone, 0.012, outcome="fails", n_p=6),
-        tested_row(alone, 0.027, outcome="fails", n_p2=8, n_s2=2),
+        found_row("Lowest static friction at an intermediate n_p", 0.17),
+        found_row("Order of detachment on a pillar", 0.1, n_p=6),
+        found_row("The order of detachment never changes", 0.33, "not reproduced", "fails", n_p=6),
+        found_row(length, 2.7, fit=PLAIN, n_p=20),
+        found_row(length, 3.6, fit=SCALED, n_p=20),
+        found_row("Correlation length grows with n_p", -0.005, "not settled", "open", fit=SCALED),
+        found_row(peaks, 0.004, outcome="fails", n_p=58, n_p2=4),
+        found_row(peaks, 0.028, n_p=58, n_p2=8),
+        found_row(alone, 0.012, outcome="fails", n_p=6),
+        found_row(alone, 0.027, outcome="fails", n_p2=8, n_s2=2),
     ]
     told = found(realisations(0.80), realisations(0.63, n_p=6, n_s=6), claims=claims)
     assert told["friction"]["below"] == ["0.17 [0.16, 0.18]"]
@@ -104,8 +104,8 @@ def test_findings_take_their_numbers_from_the_statements():
     ("verdict", "is_open"), [("reproduced", False), ("not settled", True), ("not tested", True)]
 )
 def test_a_study_says_whether_it_settles_that_two_peaks_need_hierarchy(verdict, is_open):
-    along = tested_row("Two load peaks along grooves", 0.028, n_p2=8)
-    alone = tested_row("Without hierarchy one load peak", 0.009, verdict, "open", n_p=6)
+    along = found_row("Two load peaks along grooves", 0.028, n_p2=8)
+    alone = found_row("Without hierarchy one load peak", 0.009, verdict, "open", n_p=6)
     assert found(claims=[along, alone])["peaks"]["is_open"] == is_open
 
 
@@ -136,7 +136,7 @@ def test_each_statement_belongs_to_a_figure():
 
 def test_statements_link_to_where_their_page_says_more():
     table = rows(STATEMENTS, Evidence())
-    body = markup.rendered("claims", rendered("claims.md", **content(table))).body
+    body = markup.rendered("claims", rendered("claims.md", **values(table))).body
     made = statements(judged(table))
     assert counted(judged(table)) == {"not tested": len(STATEMENTS)}
     assert all(f'id="{statement["anchor"]}"' in body for statement in made)

@@ -95,7 +95,7 @@ def counted(parts: Iterable[Judged]) -> dict[str, int]:
     return {verdict: found[verdict] for verdict in _VERDICTS if found[verdict]}
 
 
-def content(table: Iterable[Row]) -> dict[str, Any]:
+def values(table: Iterable[Row]) -> dict[str, Any]:
     """Return the values of the page `claims.md`."""
     parts = judged(table)
     by_mark = {

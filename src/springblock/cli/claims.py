@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from springblock.claims import CLAIMS
+from springblock.claims import STATEMENTS
 from springblock.claims.table import SCHEMA, gathered, rows
 from springblock.cli.options import INPUT, Output, code_version, load_as
 from springblock.io.parquet import load, refuse_mixture, rows_to_table, write
@@ -50,4 +50,4 @@ def claims(
         precision=_rows("work_precision", work_precision),
     )
     origin = {"code_version": code_version("claims"), "configuration_digest": configuration}
-    write(rows_to_table(rows(CLAIMS, evidence), SCHEMA), output, origin)
+    write(rows_to_table(rows(STATEMENTS, evidence), SCHEMA), output, origin)

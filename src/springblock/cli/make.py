@@ -111,17 +111,20 @@ def _collect(tables: tuple[Path, ...], configuration: str | None, output: Path) 
 
 def _page(name: str, files: tuple[Path, ...]) -> str:
     """Return the text of a page."""
+    if name == "claims":
+        from springblock.claims import summary
+        from springblock.pages import rendered  # needs the packages of the study
+
+        return rendered("claims.md", **summary.values(load_as("claims", files[0]).to_pylist()))
     if name == "accuracy":
         from springblock.accuracy.page import values
-        from springblock.pages import rendered  # needs the packages of the study
+        from springblock.pages import rendered
 
         tables = [load_as(kind, file) for kind, file in zip(_ACCURACY, files, strict=True)]
         return rendered("accuracy.md", **values(*(table.to_pylist() for table in tables)))
     page = resolve_name(f"springblock.{name}.page:page")
     if name == "beyond":
         return page(by_scene(read_records(files)))
-    if name == "claims":
-        return page(load_as("claims", files[0]).to_pylist())
     tables = [load_as(kind, file) for kind, file in zip(TABLES, files, strict=True)]
     return page(*(table.to_pandas() for table in tables))
 
