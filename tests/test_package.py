@@ -67,6 +67,12 @@ def test_the_solver_and_its_commands_need_nothing_of_the_study(tmp_path):
     assert {"run.png", "a.pdf", "b.pdf", "c.gif"} <= {file.name for file in tmp_path.iterdir()}
 
 
+def test_no_result_rests_on_docstrings():
+    """Which `python -OO` removes."""
+    files = (ROOT / "src").rglob("*.py")
+    assert [file for file in files if "__doc__" in file.read_text(encoding="utf-8")] == []
+
+
 def test_every_description_of_the_software_says_the_same():
     """What is installed, what is cited, what is deposited, and the head of what has changed."""
     cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))

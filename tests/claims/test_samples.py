@@ -11,11 +11,13 @@ from springblock import draw_friction
 from springblock.analysis.estimate import Estimate
 from springblock.claims.flat import (
     fronts,
+    localized_stick_slip,
     not_all_nucleate,
     single_events,
     strain_left,
     weakest_first,
 )
+from springblock.claims.grooves import across_sticks_better
 from springblock.claims.load_peaks import (
     both_peaks,
     main_rate,
@@ -189,6 +191,27 @@ def test_strain_that_is_left_is_not_that_which_replaces_it():
     left, scatter = strain_left(replace(RUN, snapshots=fields), 0)
     assert left == pytest.approx([1.0, 0.5, 0.0], abs=0.05)
     assert scatter == pytest.approx([1.0, 0.5, 1.0], abs=0.05)
+
+
+def test_stick_slip_is_counted_from_the_force_minimum_to_the_fall_after_the_next_maximum():
+    force = np.interp(np.arange(101.0), [0, 10, 20, 40, 60, 100], [0.0, 1.0, 0.2, 0.8, 0.4, 0.4])
+    end = 40 + int(np.argmax(force[40:] < force[20:].mean()))
+    switches = np.where((np.arange(101) >= 20) & (np.arange(101) < end), 1, 0)
+    times = np.full((6, 6), 1e-5)
+    times[:2], times[-2:] = 0.9e-5, 1.1e-5
+    curves = {"force": force, "time": 1e-6 * np.arange(101.0), "t_det": times}
+    run = replace(RUN, contact=np.ones((6, 6), bool), switches=switches, **curves)
+    durations = (end - 20) / 2.0
+    assert localized_stick_slip.__wrapped__(run) == pytest.approx((end - 20) / 36 / durations)
+    later = replace(run, switches=switches + 5 * (np.arange(101) >= end))
+    assert localized_stick_slip.__wrapped__(later) == localized_stick_slip.__wrapped__(run)
+
+
+def test_only_grooves_of_two_blocks_or_less_are_narrow():
+    scenes = [Scene(48, n_p2=8, n_s2=width, direction=way) for width in (2, 4) for way in "xy"]
+    runs = [replace(RUN, seed=seed) for seed in range(3)]
+    found = across_sticks_better(Evidence(records=dict.fromkeys(scenes, runs)))
+    assert [each.case.n_s2 for each in found] == [2]
 
 
 def test_further_slips_are_divided_by_the_blocks_detached_at_the_lowest_force():

@@ -43,7 +43,7 @@ def rows_to_table(rows: Sequence[Mapping[str, Any]], schema: pa.Schema) -> pa.Ta
 
 def _column(values: Sequence[Any], field: pa.Field) -> pa.Array:
     """Return the values of a column, null where a nullable one has None."""
-    if not field.nullable:
+    if not (field.nullable and any(value is None for value in values)):
         return _array(values, field.type)
     filler = "" if pa.types.is_string(field.type) else 0
     filled = _array([filler if value is None else value for value in values], field.type)
