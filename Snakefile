@@ -69,7 +69,7 @@ SPARE = [file for file in SPARE if Path(file).is_relative_to(RESULTS)]
 
 
 onerror:
-    tell_errors()
+    watched.tell_errors()
 
 
 onsuccess:

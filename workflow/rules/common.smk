@@ -3,26 +3,19 @@
 import logging
 import os
 import re
-import shutil
-import subprocess
 import sys
-import time
 from itertools import chain
 from pathlib import Path
 from shlex import quote
-from types import SimpleNamespace
 
 import yaml
-from snakemake.common import NOTHING_TO_BE_DONE_MSG
 from snakemake.exceptions import WorkflowError
-from snakemake.settings.types import RerunTrigger
 from snakemake.utils import update_config
-from snakemake_interface_logger_plugins.common import LogEvent
 
 from springblock.cli import sentence
 from springblock.provenance import configuration_digest, digest
 from springblock.study import configuration as study
-from springblock.study import cost, record
+from springblock.study import cost, events, record
 from springblock.study.written import LOADER, check_file
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
@@ -49,7 +42,6 @@ config = checked(study.completed, config)
 checked(study.check, config, SCHEMA)
 RESULTS = str(Path(config["results"]))  # without a slash at the end
 
-BEGUN = time.time()
 OWN = study.is_own(config)
 SETUP = study.setup(config)
 CONFIGURATION = configuration_digest(config)
@@ -142,100 +134,15 @@ def minutes(wildcards, attempt):
     return attempt * cost.minutes(*work(wildcards))
 
 
-class Events(logging.Filter):
-    """Sees what Snakemake does, also as a module of another workflow, where `onstart` is not called."""
-
-    def __init__(self):
-        super().__init__()
-        self.times, self.tables = [], 0
-
-    def filter(self, record):
-        """Return whether Snakemake shall print the record of an event."""
-        event = getattr(record, "event", None)
-        if event == LogEvent.WORKFLOW_STARTED:
-            start()
-        elif event == LogEvent.JOB_INFO and workflow.dryrun:
-            self.times.append(expected(record.rule_name, SimpleNamespace(**record.wildcards)))
-        elif event == LogEvent.RUN_INFO or record.msg == NOTHING_TO_BE_DONE_MSG:
-            self.tables += 1
-            if workflow.touch and event == LogEvent.RUN_INFO:
-                refuse("--touch does not compare them")
-            if not workflow.dryrun:
-                begin()
-            elif self.tables > 1:  # a dry run prints its table twice
-                said = cost.in_words(self.times, workflow.cores)
-                print(f"These jobs take {said}.", file=sys.stderr)
-        return self.tables < 2 or event != LogEvent.RUN_INFO
-
-
-def expected(name, wildcards):
-    """CPU time in s that a job of this name is expected to take."""
-    if name in ("prelude", "simulate_batch"):
+def seconds(rule, wildcards):
+    """CPU time in s that a job of this rule is expected to take."""
+    if rule in ("prelude", "simulate_batch"):
         return cost.expected(*work(wildcards))
-    return cost.expected_of(name)
+    return cost.expected_of(rule)
 
 
 if workflow.is_main_process:
-    logging.getLogger("snakemake.logging").addFilter(Events())
-
-
-def start():
-    """Refuse results that may be of another configuration, and read targets; dry runs call this."""
-    compared = set(RerunTrigger.all()) <= set(workflow.rerun_triggers)
-    refuse("" if compared else "--rerun-triggers leaves such changes out")
-    targets = workflow.dag_settings.targets
-    workflow.dag_settings.targets = list(chain.from_iterable(map(meant, targets)))
-
-
-def refuse(unseen):
-    """Refuse results of other configurations, which Snakemake does not see for the reason given."""
-    checked(record.refuse_unknown, Path(RESULTS), config, unseen)
-
-
-def meant(target):
-    """Targets that a target stands for: all files of a rule that has wildcards, as `prelude`."""
-    named = workflow.get_rule(target) if workflow.is_rule(target) else None
-    if named is None or not named.has_wildcards():
-        return [target]
-    return [file for file in {*NEEDED, *SPARE} if named.is_producer(file)] or [target]
-
-
-def begin():
-    """Record configuration, code and contents before the first job; dry runs do not call this."""
-    refuse_orphans()
-    if workflow.dag_settings.targets == [rules.repair.rule.name]:  # compares with what is recorded
-        return
-    size = config["realisations_per_job"]
-    contents = {
-        "ensembles": {
-            name: record.needed(each, SETUPS[name], size) for name, each in ENSEMBLE.items()
-        },
-        "files": sorted(os.path.relpath(file, RESULTS) for file in NEEDED),
-        "spare": sorted(os.path.relpath(file, RESULTS) for file in {*SPARE} - {*NEEDED}),
-    }
-    remembers = workflow.execution_settings.keep_metadata
-    checked(record.begin, Path(RESULTS), config, contents, remembers)
-
-
-def tell_errors():
-    """Print the errors in the logs of this run's jobs, which the quiet profile does not show."""
-    for file in sorted(Path(RESULTS, "logs").rglob("*.log")):
-        said = file.read_text(errors="replace") if file.stat().st_mtime >= BEGUN else ""
-        for line in [line for line in said.splitlines() if "Error" in line][-1:]:
-            print(f"{file}: {line}", file=sys.stderr)
-
-
-def refuse_orphans():
-    """Refuse to start while Slurm has jobs of a killed run of this folder, which write the same files."""
-    if not shutil.which("squeue"):
-        return
-    command = ["squeue", "--me", "--noheader", "--format=%j|%Z"]
-    listed = subprocess.run(command, capture_output=True, text=True).stdout
-    jobs = [line.split("|", 1) for line in listed.splitlines()]
-    names = {name for name, folder in jobs if Path(folder) == Path.cwd()}
-    orphans = sorted(name for name in names if name.startswith("springblock_"))
-    if orphans:
-        raise WorkflowError(
-            "Slurm still has jobs of a run of this folder that was killed. "
-            f"Wait until they end, or cancel them: scancel --name={','.join(orphans)}"
-        )
+    watched = events.Events(
+        workflow, config, seconds, lambda: record.contents(config, ENSEMBLE, SETUPS, NEEDED, SPARE)
+    )
+    logging.getLogger("snakemake.logging").addFilter(watched)

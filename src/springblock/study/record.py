@@ -6,7 +6,8 @@ prevents this. With it, each file is checked against what the last configuration
 """
 
 import json
-from collections.abc import Mapping
+import os
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 from uuid import uuid4
@@ -65,7 +66,7 @@ def begin(
 ) -> None:
     """Record configuration, code and contents of a study before the first job of a run.
 
-    `contents` has `ensembles`, by folder, as `needed` describes them; `files`, which the study has
+    `contents` has `ensembles`, by folder, as `_needed` describes them; `files`, which the study has
     when it is finished; and `spare`, files that it may also have.
     `remembers` says whether Snakemake stores metadata on what it makes.
     """
@@ -81,7 +82,24 @@ def begin(
     write_text(results / RECORD, json.dumps({**record, "made": [*made, now], **contents}, indent=1))
 
 
-def needed(ensemble: Ensemble, setup: Setup, size: int) -> dict[str, Any]:
+def contents(
+    configuration: Mapping[str, Any],
+    ensembles: Mapping[str, Ensemble],
+    setups: Mapping[str, Setup],
+    files: Iterable[str],
+    spare: Iterable[str],
+) -> dict[str, Any]:
+    """Return `contents` of `begin`, from ensembles and setups by folder, and paths of files."""
+    size, results = configuration["realisations_per_job"], configuration["results"]
+    needed, other = ({os.path.relpath(file, results) for file in some} for some in (files, spare))
+    return {
+        "ensembles": {name: _needed(each, setups[name], size) for name, each in ensembles.items()},
+        "files": sorted(needed),
+        "spare": sorted(other - needed),
+    }
+
+
+def _needed(ensemble: Ensemble, setup: Setup, size: int) -> dict[str, Any]:
     """Return the identity of runs, the digest of their prelude, and the seeds of each batch."""
     from springblock.simulation.prelude import conditions  # loads numba
 
