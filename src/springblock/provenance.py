@@ -34,7 +34,7 @@ STEPS: dict[str, tuple[str, ...]] = {
     "report": (
         *(*_STATEMENTS, "beyond", "claims", "plotting", "report"),
         *("claims/statements.toml", "claims/full_study.csv"),
-        *("report/*.html", "report/*.css", "report/*.js"),
+        *("report/*.html", "report/*.css", "report/*.js", "report/*.md"),
     ),
 }
 #: Modules of descriptions alone.

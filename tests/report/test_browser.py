@@ -37,7 +37,7 @@ def whole(study, tmp_path_factory):
 def test_every_part_of_the_report_is_shown(whole, opened, width):
     page = opened(whole, width)
     names = page.locator("nav a").evaluate_all("links => links.map((a) => a.hash.slice(1))")
-    expected = ["findings", "claims", "figures", "accuracy", "beyond", "films", "tables"]
+    expected = ["findings", "means", "figures", "claims", "accuracy", "beyond", "films", "tables"]
     assert names == expected
     for name in names:
         page.locator(f"nav a[href='#{name}']").click()
@@ -49,11 +49,11 @@ def test_every_part_of_the_report_is_shown(whole, opened, width):
 
 def test_a_link_to_a_statement_leads_to_it(study, opened):
     page = opened(study / "results/report.html")
-    page.locator("nav a[href='#claims']").click()
-    page.locator(".verdicts > summary").first.click()
-    statement = page.locator(".verdicts .statement").first
+    page.locator("nav a[href='#figures']").click()
+    page.locator(".compared > summary").last.click()
+    statement = page.locator(".compared").last.locator(".statement").first
     statement.locator("summary").click()
-    link = statement.get_by_text("All findings")
+    link = statement.get_by_text("This study")
     target = page.locator(f"[id='{link.get_attribute('href')[1:]}']")
     link.click()
     expect(target).to_be_in_viewport()

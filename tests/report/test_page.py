@@ -1,145 +1,46 @@
 """What the report says, and that it takes nothing for its own that was only given to it."""
 
-from dataclasses import asdict, replace
+import re
+from dataclasses import replace
 
 import numpy as np
 import pyarrow as pa
 import pytest
 
 from springblock.claims import STATEMENTS
-from springblock.claims.ranges import PLAIN, SCALED
-from springblock.claims.rule import Case, Evidence
-from springblock.claims.summary import counted, judged, values
+from springblock.claims.full_study import verdicts
+from springblock.claims.rule import Evidence
+from springblock.claims.summary import values
 from springblock.claims.table import rows
 from springblock.cli import main
 from springblock.io.records import read_records
-from springblock.model.scene import Scene
 from springblock.pages import rendered
 from springblock.plotting.figures import FIGURES
-from springblock.report import findings, markup, media
+from springblock.report import markup, media
 from springblock.report.markup import typeset
-from springblock.report.page import page, statements
-
-
-def realisations(friction, lag=-2e-6, seeds=5, scatter=1e-3, **lengths):
-    """Rows of a table of realisations, with so much static friction and t_max - t_avg."""
-    scene = Scene(120, **lengths)
-    return [
-        {
-            **scene.row,
-            "seed": seed,
-            "static_friction": friction + scatter * np.sin(seed),
-            "t_max": 1e-4 + lag + 1e-8 * np.cos(seed),
-            "t_avg": 1e-4,
-            "energy_error": -1e-5,
-        }
-        for seed in range(seeds)
-    ]
-
-
-def found(*samples, claims=()):
-    rows = [row for sample in samples for row in sample]
-    return findings.findings({"realisations": rows, "claims": claims})
-
-
-def test_the_size_of_least_friction_follows_the_numbers_and_not_the_paper():
-    flat, small = realisations(0.80), realisations(0.72, n_p=6, n_s=6)
-    large = realisations(0.64, lag=3e-6, n_p=60, n_s=60)
-    friction = found(flat, small, large)["friction"]
-    assert friction["size"] == 60
-    assert friction["sizes"] == [6, 60]
-    assert "lower by 0.16" in friction["change"]
-    assert [row[0] for row in friction["rows"]] == ["flat", "n_p = 6", "n_p = 60"]
-    assert found(flat, small, large)["order"]["peaks"]["after"] == [60]
-    turned = found(realisations(0.64), realisations(0.80, n_p=6, n_s=6))["friction"]
-    assert "higher by 0.16" in turned["change"]
-
-
-def test_no_minimum_is_claimed_where_the_statement_was_not_tested():
-    flat, pillars = realisations(0.80), realisations(0.72, n_p=6, n_s=6)
-    claims = rows(STATEMENTS, Evidence())
-    assert found(flat, pillars, claims=claims)["friction"]["below"] == []
-    assert found(claims=claims) == {}
-
-
-def found_row(claim, value, verdict="reproduced", outcome="holds", **case):
-    """A row of the table of statements, on one that the study does test."""
-    assert claim in {each.title for each in STATEMENTS}
-    limits = {"together_low": value - 0.01, "together_high": value + 0.01, "claimed_low": 0.01}
-    named = {"claim": claim, "verdict": verdict, "outcome": outcome, "value": value}
-    return limits | named | asdict(Case(**case))
-
-
-def test_findings_take_their_numbers_from_the_statements():
-    length, peaks, alone = (
-        "Correlation length of about three blocks or more",
-        "Two load peaks along grooves",
-        "Without hierarchy one load peak",
-    )
-    claims = [
-        found_row("Lowest static friction at an intermediate n_p", 0.17),
-        found_row("Order of detachment on a pillar", 0.1, n_p=6),
-        found_row("The order of detachment never changes", 0.33, "not reproduced", "fails", n_p=6),
-        found_row(length, 2.7, fit=PLAIN, n_p=20),
-        found_row(length, 3.6, fit=SCALED, n_p=20),
-        found_row("Correlation length grows with n_p", -0.005, "not settled", "open", fit=SCALED),
-        found_row(peaks, 0.004, outcome="fails", n_p=58, n_p2=4),
-        found_row(peaks, 0.028, n_p=58, n_p2=8),
-        found_row(alone, 0.012, outcome="fails", n_p=6),
-        found_row(alone, 0.027, outcome="fails", n_p2=8, n_s2=2),
-    ]
-    told = found(realisations(0.80), realisations(0.63, n_p=6, n_s=6), claims=claims)
-    assert told["friction"]["below"] == ["0.17 [0.16, 0.18]"]
-    assert told["order"]["inward"]
-    assert told["order"]["shares"] == [(6, "0.33 [0.32, 0.34]")]
-    assert [name for (_, name), _ in told["correlation"]["fits"]] == ["l_d", "l_c"]
-    assert told["correlation"]["growth"] == [("l_d", "", "-0.005 [-0.015, 0.005]")]
-    assert [size for size, _ in told["peaks"]["along"]] == [8, 4]
-    assert told["peaks"]["others"] == [
-        ("pawls of 8 between grooves of 2 (no pillars)", "0.027 [0.017, 0.037]")
-    ]
-
-
-@pytest.mark.parametrize(
-    ("verdict", "is_open"), [("reproduced", False), ("not settled", True), ("not tested", True)]
-)
-def test_a_study_says_whether_it_settles_that_two_peaks_need_hierarchy(verdict, is_open):
-    along = found_row("Two load peaks along grooves", 0.028, n_p2=8)
-    alone = found_row("Without hierarchy one load peak", 0.009, verdict, "open", n_p=6)
-    assert found(claims=[along, alone])["peaks"]["is_open"] == is_open
-
-
-def test_differences_within_the_scatter_are_not_significant():
-    """Means that differ by less than their scatter, and single runs, which have none."""
-    close = found(realisations(0.7, scatter=0.1), realisations(0.701, scatter=0.1, n_p=6, n_s=6))
-    assert "not differ significantly" in close["friction"]["change"]
-    single = found(realisations(0.8, seeds=1), realisations(0.6, seeds=1, n_p=6, n_s=6))
-    assert "[no interval]" in single["friction"]["change"]
-    assert single["order"]["peaks"]["unsettled"] == [0, 6]
-
-
-def test_findings_are_those_on_the_side_with_the_most_realisations():
-    few = [*realisations(0.8, seeds=2), *realisations(0.7, seeds=2, n_p=6, n_s=6)]
-    many = [row | Scene(60).row for row in realisations(0.8, seeds=9)]
-    assert set(findings.main_runs([*few, *many])) == {Scene(60)}
-
-
-def test_constants_of_their_own_are_left_out_of_the_findings():
-    varied = realisations(0.5, varied=(("pressure", 1e5),))
-    assert findings.main_runs(varied) == {}
-    assert found(varied) == {}
+from springblock.report.page import page
 
 
 def test_each_statement_belongs_to_a_figure():
     assert {f"figure_{each.figure}" for each in STATEMENTS} <= FIGURES.keys()
 
 
-def test_statements_link_to_where_their_page_says_more():
-    table = rows(STATEMENTS, Evidence())
-    body = markup.rendered("claims", rendered("claims.md", **values(table))).body
-    made = statements(judged(table))
-    assert counted(judged(table)) == {"not tested": len(STATEMENTS)}
-    assert all(f'id="{statement["anchor"]}"' in body for statement in made)
+def test_a_figure_has_the_verdicts_of_the_full_study(picture):
+    """They lead to the study's own page of statements, if it has one."""
+    first = STATEMENTS[0]
+    text = page([picture(f"figure_{first.figure}.png", "a")], {})
+    _, _, after = text.partition(str(typeset(first.title)))
+    assert f"{verdicts()[first.id]['holds']} of {verdicts()[first.id]['cases']} cases hold" in after
+    assert "#claims-" not in text
+
+
+def test_links_to_statements_lead_to_their_parts_of_the_page(picture, tmp_path):
+    own = tmp_path / "claims.md"
+    own.write_text(rendered("claims.md", **values(rows(STATEMENTS, Evidence()))))
+    text = page([own, *(picture(f"figure_{i}.png", "a") for i in range(1, 10))], {})
+    links = re.findall(r'href="#(claims-\d[^"]+)"', text)
+    assert len(links) >= len(STATEMENTS)
+    assert all(f'id="{link}"' in text for link in links)
 
 
 @pytest.mark.parametrize(

@@ -22,6 +22,7 @@ INPUTS = {
     "collect": ("tables of equal columns", 1, None),
     "accuracy": (f"the tables {', '.join(_ACCURACY)}", len(_ACCURACY), len(_ACCURACY)),
     "claims": ("the table claims", 1, 1),
+    "findings": ("the tables claims and realisations", 2, 2),
     "mechanism": (f"the tables {', '.join(TABLES)}", len(TABLES), len(TABLES)),
     "beyond": ("batches of realisations", 1, None),
 }
@@ -59,6 +60,7 @@ def make(
       accuracy           page on errors, from the tables work_precision, stability,
                          realisations and production
       claims             page on the paper's statements, from their table
+      findings           findings of the full study, from the tables claims and realisations
       mechanism          page on static friction, from its tables
       beyond             page on questions beyond the paper, from batches
     """
@@ -116,6 +118,15 @@ def _page(name: str, files: tuple[Path, ...]) -> str:
         from springblock.pages import rendered  # needs the packages of the study
 
         return rendered("claims.md", **summary.values(load_as("claims", files[0]).to_pylist()))
+    if name == "findings":
+        from springblock.pages import rendered
+        from springblock.report import findings
+
+        tables = [
+            load_as(kind, file).to_pylist()
+            for kind, file in zip(("claims", "realisations"), files, strict=True)
+        ]
+        return rendered("findings.md", **findings.values(*tables))
     if name == "accuracy":
         from springblock.accuracy.page import values
         from springblock.pages import rendered

@@ -11,25 +11,20 @@ import pyarrow as pa
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from springblock.analysis.ensembles import constants, ensembles
+from springblock.analysis.ensembles import Ensemble, constants, ensembles
 from springblock.analysis.means import UNITS, changes_from_first, in_words, means
-from springblock.claims.summary import Judged, counted, judged
+from springblock.claims import STATEMENTS
+from springblock.claims.full_study import verdicts
 from springblock.io.parquet import load, origin_of
-from springblock.io.rows import Row, listed
+from springblock.io.rows import Row
 from springblock.model.material import Material
-from springblock.report import findings, markup, media
+from springblock.report import markup, media
+from springblock.report.findings import FILE
 
-#: Parts of the page in their order, before further pages, and the titles of those without a page.
-ORDER = ("claims", "figures", "mechanism", "accuracy", "beyond", "glossary")
-TITLES = {"figures": "Further figures"}
-#: The picture of the method, and the figures that findings show.
-MODEL = "figure_1"
-SHOWN = {
-    "friction": ("figure_6", "mechanism_friction"),
-    "order": ("figure_5",),
-    "correlation": ("figure_7",),
-    "peaks": ("figure_9",),
-}
+#: Parts of the page in their order, before further pages.
+ORDER = ("figures", "claims", "mechanism", "accuracy", "beyond", "glossary")
+MODEL = "figure_1"  #: the picture of the method
+OBSERVED = ("static_friction", "t_max", "t_avg")  #: whose means the page shows
 _HERE = Path(__file__).parent
 
 Figures = dict[str, dict[str, Any]]  #: by name
@@ -56,10 +51,12 @@ def page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = False) -
     rows = {name: table.to_pylist() for name, table in data.items()}
     if own and "realisations" not in rows:
         raise ValueError("a report on own scenes needs the table realisations.parquet")
-    content = _of_own(rows["realisations"]) if own else _of_study(rows, figures, pages)
+    members = ensembles(rows.get("realisations", []))
+    content = _of_own(members) if own else _of_study(figures, pages)
     return rendered(
         "own.html" if own else "page.html",
         **content,
+        means=_spaced(means(members, OBSERVED)) if members else (),
         n_runs=len(rows.get("realisations", [])),
         figures=figures,
         pages=pages,
@@ -73,13 +70,11 @@ def page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = False) -
     )
 
 
-def _of_own(rows: Sequence[Row]) -> dict[str, Any]:
-    """Return means and changes of ensembles, and common parameters other than the paper's."""
-    members = ensembles(rows)
+def _of_own(members: Sequence[Ensemble]) -> dict[str, Any]:
+    """Return changes between ensembles, and common parameters other than the paper's."""
     paper = dict(Material().items())
     changes = changes_from_first(members, ["static_friction"])
     return {
-        "means": _spaced(means(members, ["static_friction", "t_max", "t_avg"])),
         "changes": _spaced(changes) if changes else (),
         "common": [
             f"{name} = {value} {UNITS.get(name, '')}".strip()
@@ -95,39 +90,16 @@ def _spaced(rows: Sequence[Row]) -> tuple[list[str], list[list[str]]]:
     return [name.replace("static_friction", "static friction") for name in head], cells
 
 
-def _of_study(
-    rows: findings.Tables, figures: Figures, pages: Mapping[str, markup.Page]
-) -> dict[str, Any]:
-    """Return findings, statements and the parts of the page of a study."""
-    found = findings.findings(rows)
-    placed = {MODEL, *(name for finding in found for name in SHOWN[finding])}
-    claims = judged(rows.get("claims", []))
-    mechanism = pages.get("mechanism", markup.Page(""))
+def _of_study(figures: Figures, pages: Mapping[str, markup.Page]) -> dict[str, Any]:
+    """Return findings and verdicts of the full study, and the parts of the page of a study."""
+    found = verdicts()
     return {
-        "findings": found,
-        "SHOWN": SHOWN,
-        "reasons": {"friction": mechanism.opening},
+        "findings": markup.rendered("findings", FILE.read_text("utf-8"), pages).body,
+        "statements": [(each, found[each.id]) for each in STATEMENTS],
         "model": figures.get(MODEL),
-        "statements": statements(claims),
-        "counted": counted(claims),
-        "parts": _parts(figures, pages, placed),
+        "parts": _parts(figures, pages),
         "version": version("springblock"),
     }
-
-
-def statements(parts: Iterable[Judged]) -> list[dict[str, Any]]:
-    """Return each statement with its verdict, its figure, and its anchor on the page."""
-    return [
-        {
-            **part.rows[0],
-            "words": part.statement.words,
-            "criterion": part.statement.criterion,
-            "figure": f"figure_{part.statement.figure}",
-            "decided": f"{part.holds} of {part.cases} cases hold.",
-            "anchor": f"claims-{part.statement.anchor}",
-        }
-        for part in parts
-    ]
 
 
 def rendered(template: str, **content: Any) -> str:
@@ -139,7 +111,7 @@ def rendered(template: str, **content: Any) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= {"typeset": markup.typeset, "symbols": markup.symbols, "listed": listed}
+    environment.filters |= {"typeset": markup.typeset}
     style, script = (_HERE.joinpath(f"page.{kind}").read_text("utf-8") for kind in ("css", "js"))
     digest = b64encode(sha256(script.encode()).digest()).decode()
     return environment.get_template(template).render(
@@ -147,18 +119,16 @@ def rendered(template: str, **content: Any) -> str:
     )
 
 
-def _parts(
-    figures: Figures, pages: Mapping[str, markup.Page], placed: set[str]
-) -> list[dict[str, Any]]:
-    """Parts that have something to show, in order, without the figures that findings show."""
+def _parts(figures: Figures, pages: Mapping[str, markup.Page]) -> list[dict[str, Any]]:
+    """Parts that have something to show, in order, without the picture of the method."""
     left: dict[str, list[dict[str, Any]]] = {}
     for name, figure in figures.items():
-        if name not in placed:
+        if name != MODEL:
             part = figure["category"].lower()
             left.setdefault(part if part in pages else "figures", []).append(figure)
     parts = []
     for name in dict.fromkeys([*ORDER, *pages, *left]):
-        page = pages.get(name, markup.Page(TITLES.get(name, name.capitalize())))
+        page = pages.get(name, markup.Page(name.capitalize()))
         if name in pages or name in left:
             shown = left.get(name, [])
             parts.append({"name": name, "title": page.title, "body": page.body, "figures": shown})
