@@ -23,11 +23,15 @@ quick: setup
 full: setup
 	$(BIN)/snakemake --configfile config/full.yaml
 
-# Pages and pictures in docs, from the whole study.
+# Pages and pictures in docs, and the findings in README and reports, from the whole study.
+FINDINGS := src/springblock/report/findings.md
 docs: full
 	$(BIN)/springblock dictionary --output docs/tables.md
 	cp results/accuracy.md results/claims.md results/mechanism.md results/beyond.md results/figures/figure_6.png docs
 	$(BIN)/python -m springblock.claims.full_study results/tables/claims.parquet
+	$(BIN)/springblock make findings results/tables/claims.parquet results/tables/realisations.parquet --output $(FINDINGS)
+	sed -e '/^<!-- findings/,/^<!-- end/{/^<!--/!d;}' -e '/^<!-- findings/r $(FINDINGS)' README.md > results/README.md
+	mv results/README.md README.md
 	$(BIN)/springblock simulate --n-blocks 120 --n-p 20 --n-s 20 --output results/front.parquet
 	$(BIN)/springblock animate results/front.parquet --output docs/front.gif
 

@@ -1,5 +1,6 @@
 """What the pages say is what the code writes, knows and has computed."""
 
+import csv
 import re
 from collections import Counter
 from pathlib import Path
@@ -10,9 +11,11 @@ import pytest
 from springblock import Material, Realisation
 from springblock.beyond.page import page as beyond_page
 from springblock.claims import STATEMENTS
+from springblock.claims.full_study import verdicts
 from springblock.cli import main
 from springblock.io.schemas import SETUP
 from springblock.report.dictionary import page as dictionary
+from springblock.report.findings import FILE
 
 ROOT = Path(__file__).parents[1]
 PAGES = {
@@ -74,14 +77,20 @@ def test_findings_that_are_quoted_stand_in_a_page_of_results():
     assert [value for value in quoted if value not in computed] == []
 
 
-def test_every_statement_has_a_verdict_and_the_readme_counts_them():
-    summary = re.findall(r"^\| \[\d+\. .*? \| \*\*([a-z ]+)\*\*", PAGES["claims"], re.MULTILINE)
-    counts = Counter(summary)
-    assert counts.total() == len(STATEMENTS)
-    sentence = re.search(r"Of \d+ statements[^.]*\.", PAGES["README"])[0]
+def test_the_readme_counts_the_verdicts_of_registered_tests_and_of_present_ones():
+    with (ROOT / "docs/registration/confirmed.csv").open(encoding="utf-8", newline="") as file:
+        registered = Counter(row["verdict"] for row in csv.DictReader(file))
+    present = Counter(row["verdict"] for row in verdicts().values())
+    changed = sum(bool(each.changed) for each in STATEMENTS)
     names = ("reproduced", "reproduced in part", "not reproduced", "not settled")
-    expected = [counts.total(), *(counts[name] for name in names)]
-    assert [int(number) for number in re.findall(r"\d+", sentence)] == expected
+    first, second = ([each.total(), *map(each.get, names)] for each in (registered, present))
+    (sentences,) = re.findall(r"Of \d+ tests.*?not settled", PAGES["README"], re.DOTALL)
+    assert [int(number) for number in re.findall(r"\d+", sentences)] == [*first, changed, *second]
+
+
+def test_the_readme_has_the_findings_that_reports_show():
+    (found,) = re.findall(r"<!-- findings.*?-->\n(.*?)<!-- end", PAGES["README"], re.DOTALL)
+    assert found == FILE.read_text(encoding="utf-8")
 
 
 def anchors(text):
