@@ -14,7 +14,7 @@ from springblock.claims import STATEMENTS
 from springblock.claims.full_study import verdicts
 from springblock.cli import main
 from springblock.io.schemas import SETUP
-from springblock.report.dictionary import page as dictionary
+from springblock.report.dictionary import dictionary_page
 from springblock.report.findings import FILE
 
 ROOT = Path(__file__).parents[1]
@@ -40,7 +40,7 @@ def test_the_page_beyond_the_paper_is_what_the_code_writes():
 
 
 def test_the_dictionary_of_tables_is_what_the_code_writes():
-    assert PAGES["tables"] == dictionary()
+    assert PAGES["tables"] == dictionary_page()
 
 
 def symbols(heading):

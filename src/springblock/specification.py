@@ -25,7 +25,7 @@ from springblock.model.surface import Surface
 from springblock.simulation.setup import DEFAULT, Setup
 
 Mask = NDArray[np.bool_]
-#: State variables of sliding blocks by name, (N_y, N_x) each.
+#: Blocks variables of sliding blocks by name, (N_y, N_x) each.
 Memory = dict[str, Array]
 
 #: Neighbours of a block, as offsets along y and x.
@@ -69,7 +69,7 @@ def slipped(slip: float, speed: float, step: float) -> float:
     return slip + speed * step
 
 
-class Law(NamedTuple):
+class BuiltIn(NamedTuple):
     """A built-in law, with the attributes of a `LawFile`."""
 
     friction: Callable[..., float]
@@ -78,7 +78,7 @@ class Law(NamedTuple):
     initial: dict[str, float] = {"slip": 0.0}  # noqa: RUF012 - never changed
 
 
-LAWS: dict[str, Callable[..., float]] = {
+FORMULAS: dict[str, Callable[..., float]] = {
     "coulomb": coulomb,
     "slip_weakening": slip_weakening,
     "velocity_weakening": velocity_weakening,
@@ -107,7 +107,9 @@ class Problem:
         self.load = np.where(contact, material.block_load * contact.size / contact.sum(), 0.0)
         self.mu = {"mu_static": surface.mu_static, "mu_dynamic": surface.mu_dynamic}
         law = material.law
-        self.law = law if isinstance(law, LawFile) else Law(LAWS[law], dict(material.items()))
+        self.law = (
+            law if isinstance(law, LawFile) else BuiltIn(FORMULAS[law], dict(material.items()))
+        )
         #: whether a block that stops forgets its state
         self.heals = material.healing == "instant"
         #: state of blocks that detach for the first time
@@ -141,7 +143,7 @@ class Problem:
 
 
 @dataclass
-class State:
+class Blocks:
     """State of the blocks after k steps; in the leapfrog, v is the velocity half a step earlier."""
 
     k: int  #: steps taken
@@ -157,15 +159,15 @@ class State:
 
 def follow(
     surface: Surface, setup: Setup = DEFAULT, direction: str | float = "x", steps: int = 1000
-) -> Iterator[State]:
+) -> Iterator[Blocks]:
     """Pull a surface from rest; yield its state after each of `steps` steps.
 
     Other arguments are those of `simulate`.
     """
     problem, zero = Problem(surface, setup, direction), np.zeros((2, *surface.contact.shape))
-    state = State(0, zero, zero, problem.fresh, np.full(surface.contact.shape, np.inf))
+    state = Blocks(0, zero, zero, problem.fresh, np.full(surface.contact.shape, np.inf))
     for _ in range(steps):
-        state = INTEGRATORS[setup.integrator](problem, state)
+        state = SCHEMES[setup.integrator](problem, state)
         yield state
 
 
@@ -226,7 +228,7 @@ def release_theta(problem: Problem, f_c: Array, now: Array, u_before: Array, k: 
     return np.where(before <= f_c, theta, np.nan)
 
 
-def leapfrog(problem: Problem, state: State) -> State:
+def leapfrog(problem: Problem, state: Blocks) -> Blocks:
     """Take one step of the leapfrog, (7), with releases by (9) to (12)."""
     m, h, a, tau = problem.m, problem.h, problem.a, problem.tau
     k, u, v, contact = state.k, state.u, state.v, problem.contact
@@ -266,12 +268,12 @@ def leapfrog(problem: Problem, state: State) -> State:
     u = u + h * np.where(released, slip + speed, 1.0) * new
     v = np.where(released, speed, 1.0) * new
     path = h * float(np.sum(v**2))
-    return _with_ledger(problem, state, State(k + 1, u, v, memory, t_det), switched, loss, path)
+    return _with_ledger(problem, state, Blocks(k + 1, u, v, memory, t_det), switched, loss, path)
 
 
 def _with_ledger(
-    problem: Problem, before: State, now: State, switched: Mask, loss: Array, path: float
-) -> State:
+    problem: Problem, before: Blocks, now: Blocks, switched: Mask, loss: Array, path: float
+) -> Blocks:
     """Return `now` with the ledger of `before` and of this step; `loss` is frictional heat, J."""
     slide = problem.v_slider * problem.h
     pull = problem.k_s * (slide * now.k - now.u)
@@ -308,7 +310,7 @@ def _velocity_before(problem: Problem, memory: Memory, force: Array, new: Array)
     return np.where(new.any(axis=0), (w - kick) / a, 0.0)
 
 
-def runge_kutta(problem: Problem, state: State) -> State:
+def runge_kutta(problem: Problem, state: Blocks) -> Blocks:
     """Take one step of the Runge-Kutta method, (8), with releases by (9), (12) and (13)."""
     m, h, gamma = problem.m, problem.h, problem.gamma
     k, u, v, contact = state.k, state.u, state.v, problem.contact
@@ -356,7 +358,7 @@ def runge_kutta(problem: Problem, state: State) -> State:
     lost = np.where(turned, np.sum(new**2, axis=0) / 2.0, 0.0)
     slip = np.where(turned, 0.0, np.where(released, 0.0, slip) + np.sum(du * e, axis=0))
     new = np.where(turned, 0.0, new)
-    after, loss = State(k + 1, u, new, {"slip": slip}, t_det), m * (friction_work / h + lost)
+    after, loss = Blocks(k + 1, u, new, {"slip": slip}, t_det), m * (friction_work / h + lost)
     return _with_ledger(problem, state, after, released, loss, path)
 
 
@@ -376,4 +378,4 @@ def _direction(problem: Problem, force: Array, v: Array, friction: Array, releas
     return np.where(problem.contact & (released | (np.hypot(*v) > 0.0)), e, 0.0)
 
 
-INTEGRATORS = {"leapfrog": leapfrog, "rk4": runge_kutta}
+SCHEMES = {"leapfrog": leapfrog, "rk4": runge_kutta}

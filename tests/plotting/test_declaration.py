@@ -128,8 +128,8 @@ def test_captions_say_what_a_study_draws(config, groups):
 def test_a_caption_follows_the_grid():
     """Scenes with the same seeds stand together; what all share stands in front."""
     ensembles = {
-        "flat": [study.Ensemble(FLAT, range(7, 8), None)],
-        "pillars": [study.Ensemble(scene, range(20), None) for scene in (LARGE, SMALL)],
+        "flat": [study.Planned(FLAT, range(7, 8), None)],
+        "pillars": [study.Planned(scene, range(20), None) for scene in (LARGE, SMALL)],
     }
     figure = FIGURES["figure_6"]
     assert figure.data_in_words(ensembles, {}, Material(pressure=1e5)) == (
@@ -143,7 +143,7 @@ def test_a_caption_follows_the_grid():
     one = FIGURES["figure_3"].data_in_words(ensembles, {}, Material())
     ours = "Constants not named are the paper's."
     assert one == f"N = 120, sliding direction x. Flat surface (seed 7). {ours}"
-    ensembles["grooves"] = [study.Ensemble(s, range(4), None) for s in (ALONG, ASKEW, OTHER)]
+    ensembles["grooves"] = [study.Planned(s, range(4), None) for s in (ALONG, ASKEW, OTHER)]
     assert FIGURES["figure_9"].data_in_words(ensembles, {}, Material()) == (
         "N = 120. Grooved pillars n_p/n_s = 58/62, n_p2/n_s2 = 8/2, sliding direction x "
         "(4 realisations, seeds 0 to 3); n_p/n_s = 58/62, n_p2/n_s2 = 10/2, sliding direction 45°, "

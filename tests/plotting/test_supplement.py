@@ -13,7 +13,7 @@ from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
 from springblock.plotting import drawing
 from springblock.plotting.figures import FIGURES
-from springblock.study.configuration import Ensemble
+from springblock.study.configuration import Planned
 
 ISLANDS = np.indices((6, 9)).sum(axis=0) % 4 > 1
 
@@ -73,7 +73,7 @@ def test_its_caption_names_what_is_ones_own():
     weibull = Scene(4, n_rows=2, varied={"distribution": "weibull"})
     scenes = [Scene(mask=BlockMap("islands-1a2b3c4d", ISLANDS), edges="periodic"), weibull]
     scenes += [Scene(4, mu_static_field=mu)]
-    ensembles = {"surfaces": [Ensemble(scene, range(3), None) for scene in scenes]}
+    ensembles = {"surfaces": [Planned(scene, range(3), None) for scene in scenes]}
     said = FIGURES["surfaces"].data_in_words(ensembles, {}, Material(distribution="uniform"))
     assert said == (
         "Sliding direction x. "

@@ -241,7 +241,7 @@ def merged(first: Any, second: Any) -> Any:
     return first | {key: merged(first.get(key), value) for key, value in second.items()}
 
 
-def described(ensemble: study.Ensemble) -> str:
+def described(ensemble: study.Planned) -> str:
     seeds = f"seeds {ensemble.seeds[0]} to {ensemble.seeds[-1]}"
     duration = f", {ensemble.duration:g} s" if ensemble.duration else ""
     times = f", fields at {ensemble.snapshot_times}" if ensemble.snapshot_times else ""

@@ -13,7 +13,7 @@ from springblock.claims import STATEMENTS
 from springblock.claims.rule import Evidence
 from springblock.claims.table import rows
 from springblock.io.parquet import write
-from springblock.report.page import page
+from springblock.report.page import report_page as page
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 ON_MACOS = Path("/Applications/Google Chrome.app/Contents/MacOS/Google Chrome")

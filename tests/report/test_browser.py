@@ -9,7 +9,7 @@ from playwright.sync_api import expect
 
 from springblock.cli import main
 from springblock.io.parquet import write
-from springblock.report.page import page as written
+from springblock.report.page import report_page as written
 from studies import ROOT
 
 #: Pictures and films without words for those who do not see them.

@@ -18,7 +18,7 @@ from springblock.pages import rendered
 from springblock.plotting.figures import FIGURES
 from springblock.report import markup, media
 from springblock.report.markup import typeset
-from springblock.report.page import page
+from springblock.report.page import report_page as page
 
 
 def test_each_statement_belongs_to_a_figure():

@@ -14,7 +14,7 @@ import studies
 from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
 from springblock.study.configuration import (
-    Ensemble,
+    Planned,
     check,
     completed,
     ensembles,
@@ -58,7 +58,7 @@ def test_a_group_is_a_grid_over_its_lists():
     assert all(e.scene.n_s == e.scene.n_p for e in groups["pillars"])
     assert [e.scene.direction for e in groups["grooves"]][:2] == ["x", "y"]
     seeds = PAPER["scenes"]["flat"]["seeds"]
-    assert groups["flat"][0] == Ensemble(Scene(120), range(10_000, 10_000 + seeds), 3e-4)
+    assert groups["flat"][0] == Planned(Scene(120), range(10_000, 10_000 + seeds), 3e-4)
 
 
 def test_a_group_may_be_a_list_of_grids():
@@ -144,7 +144,7 @@ def test_lists_can_be_extended():
 
 @pytest.mark.parametrize("count", [1, 7, 20])
 def test_batches_hold_each_seed_once(count):
-    batches = Ensemble(Scene(4), range(3, 3 + count), None).batches(5)
+    batches = Planned(Scene(4), range(3, 3 + count), None).batches(5)
     assert [seed for batch in batches.values() for seed in batch] == list(range(3, 3 + count))
     assert all({seed // 5 for seed in batch} == {i} for i, batch in batches.items())
 

@@ -102,7 +102,7 @@ class Kernel:
             slip = np.array([state_of(law, b) for b in range(len(blocks.ux))])
             names, kept = ["slip"], [spacing * slip]
         joule = m.mass * spacing**2 / (STEP * self.integrator.force_time(STEP, m.gamma))
-        return specification.State(
+        return specification.Blocks(
             k=self.k,
             u=spacing * np.stack([ux, uy]),
             v=spacing / STEP * np.stack([vx, vy]),
@@ -137,7 +137,7 @@ def test_each_step_is_that_of_the_specification(integrator, law, name, periodic)
     surface = scattered(contact, material, periodic)
     kernel = Kernel(surface, material, integrator)
     model = specification.Problem(surface, Setup(material, integrator, STEP), ANGLE)
-    advance = specification.INTEGRATORS[integrator]
+    advance = specification.SCHEMES[integrator]
     here, switches = kernel.seen(), 0
     for _ in range(150 * contact.size // contact.sum()):
         exact = advance(model, replace(here, switches=0, work=0.0, heat=0.0, path=0.0))

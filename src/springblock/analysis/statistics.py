@@ -222,7 +222,7 @@ def cut(runs: Sequence[Run], curves: Sequence[Array]) -> tuple[Array, Array]:
 
 
 @dataclass(frozen=True, eq=False)
-class Curve:
+class LoadCurves:
     """Force and detachments of k realisations."""
 
     time: Array  #: (n,) s
@@ -242,7 +242,7 @@ class Curve:
         return self.time[: bins * size + 1 : size], counts.reshape(-1, bins, size).sum(axis=2)
 
 
-def whole_curve(runs: Sequence[Run]) -> Curve:
+def whole_curve(runs: Sequence[Run]) -> LoadCurves:
     """Force and detachments of an ensemble up to the end of its longest run.
 
     After the end of a run its force is NaN and its number of first detachments 0: a run ends only
@@ -256,7 +256,7 @@ def whole_curve(runs: Sequence[Run]) -> Curve:
 
     forces = np.stack([continued(friction(run), np.nan) for run in runs])
     counts = np.stack([continued(percent(run, run.detachments), 0.0) for run in runs])
-    return Curve(time, forces, counts)
+    return LoadCurves(time, forces, counts)
 
 
 def mean_of_rest(values: Array) -> Interval:

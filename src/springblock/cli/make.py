@@ -159,6 +159,6 @@ def report(
     FILES are pictures (PNG), pages (Markdown) and tables (Parquet). With --own the report begins
     with means and changes of the table `realisations`.
     """
-    from springblock.report.page import page  # needs the packages of the study
+    from springblock.report.page import report_page  # needs the packages of the study
 
-    write_text(output, page(files, dict(films), own))
+    write_text(output, report_page(files, dict(films), own))

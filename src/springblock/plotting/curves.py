@@ -9,7 +9,7 @@ from matplotlib.patheffects import withStroke
 from numpy.typing import ArrayLike
 
 from springblock.analysis import statistics
-from springblock.analysis.statistics import Curve, Interval
+from springblock.analysis.statistics import Interval, LoadCurves
 from springblock.model.numbers import Array
 from springblock.plotting import style
 from springblock.plotting.figures import SINGLE
@@ -44,7 +44,7 @@ def draw_band(ax: Axes, places: ArrayLike, values: Interval, color: Any, **look:
 
 
 def draw_mean_force(
-    ax: Axes, curve: Curve, color: Any, label: str, spread: bool = False, **look: Any
+    ax: Axes, curve: LoadCurves, color: Any, label: str, spread: bool = False, **look: Any
 ) -> Array:
     """Draw the mean force, dotted where runs have ended, and return it, (n,).
 
@@ -59,18 +59,18 @@ def draw_mean_force(
     return force.mean
 
 
-def _length_of_all(curve: Curve) -> int:
+def _length_of_all(curve: LoadCurves) -> int:
     """Return the number of samples that all runs have."""
     return int(np.isfinite(curve.friction).all(axis=0).sum())
 
 
-def draw_single_forces(ax: Axes, curve: Curve, color: Any) -> None:
+def draw_single_forces(ax: Axes, curve: LoadCurves, color: Any) -> None:
     """Draw the force of the first `SINGLE` runs, each up to its own end."""
     forces = curve.friction[:SINGLE].T
     ax.plot(MICRO * curve.time, forces, color=color, linewidth=0.3, alpha=0.4, zorder=1.0)
 
 
-def draw_detachments(ax: Axes, curve: Curve, color: Any, marker: str = "") -> None:
+def draw_detachments(ax: Axes, curve: LoadCurves, color: Any, marker: str = "") -> None:
     """Draw the mean share of first detachments in each bin with its interval; mark the largest."""
     edges, shares = curve.binned(_BIN)
     share, *limits = statistics.mean_interval(shares)
@@ -83,7 +83,7 @@ def draw_detachments(ax: Axes, curve: Curve, color: Any, marker: str = "") -> No
     ax.set_ylabel(f"first detachments\n(% per {MICRO * width:.3g} µs)")
 
 
-def draw_load_peaks(ax: Axes, curve: Curve, color: Any, name: str) -> None:
+def draw_load_peaks(ax: Axes, curve: LoadCurves, color: Any, name: str) -> None:
     """Draw the mean force, and triangles above its load peaks until the first run ends."""
     forces = curve.friction[:, : _length_of_all(curve)]
     peaks = statistics.load_peaks(forces.mean(axis=0), statistics.standard_error(forces))

@@ -13,9 +13,9 @@ from springblock.model.scene import Scene
 from springblock.plotting.caption import material_in_words, sample_in_words, surface_in_words
 
 if TYPE_CHECKING:  # reads configurations, which a plain installation cannot
-    from springblock.study.configuration import Ensemble
+    from springblock.study.configuration import Planned
 
-    Ensembles = Mapping[str, Sequence[Ensemble]]  #: of a study by group
+    Ensembles = Mapping[str, Sequence[Planned]]  #: of a study by group
 
 Groups = Mapping[str, Sequence[Scene]]  #: scenes of a study by group; a group may be empty
 Lengths = Mapping[str, Any]  #: of a scene, as the configuration gives them for a figure

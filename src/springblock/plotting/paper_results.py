@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from springblock.analysis import statistics
-from springblock.analysis.statistics import Curve, Interval
+from springblock.analysis.statistics import Interval, LoadCurves
 from springblock.io.records import Record
 from springblock.model.numbers import Array
 from springblock.plotting import curves, maps, style
@@ -283,7 +283,7 @@ def _lesser_peak(runs: Sequence[Run]) -> str:
     return f"{mean:.1f} %" + (f" [{low:.1f}, {high:.1f}]" if len(runs) > 1 else "")
 
 
-def _fit_forces(ax: Axes, every: Sequence[Curve], lowest: float) -> None:
+def _fit_forces(ax: Axes, every: Sequence[LoadCurves], lowest: float) -> None:
     """Fit an axis to mean forces from `_SHOWN` of the maximum on, with room for triangles."""
     means = [(MICRO * c.time, statistics.mean_of_rest(c.friction).mean) for c in every]
     start = min(time[np.argmax(mean >= _SHOWN * np.nanmax(mean))] for time, mean in means)

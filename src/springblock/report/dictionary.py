@@ -66,7 +66,7 @@ def kinds() -> dict[str, tuple[str, pa.Schema]]:
     }
 
 
-def page() -> str:
+def dictionary_page() -> str:
     """Write the dictionary of all tables, in Markdown."""
     sections = []
     for name, (row, schema) in kinds().items():

@@ -30,7 +30,7 @@ _HERE = Path(__file__).parent
 Figures = dict[str, dict[str, Any]]  #: by name
 
 
-def page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = False) -> str:
+def report_page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = False) -> str:
     """Write the page of a study from its pictures, pages and tables, and films with their runs.
 
     Files are told by their suffix: .png, .md or .parquet. With `own` it is a study of one's own

@@ -38,7 +38,7 @@ _CORRELATED = 3
 
 
 @dataclass(frozen=True)
-class Ensemble:
+class Planned:
     """A scene with the seeds and the duration of its realisations."""
 
     scene: Scene
@@ -59,7 +59,7 @@ class Ensemble:
             for i in range(first // size, last // size + 1)
         }
 
-    def joined(self, other: "Ensemble") -> "Ensemble":
+    def joined(self, other: "Planned") -> "Planned":
         """Return the larger of two ensembles of the same scene, with the snapshots of both."""
         if self.duration != other.duration:
             raise ValueError(f"duration must be the same wherever {self.scene} occurs")
@@ -129,7 +129,7 @@ def _named(key: str) -> Iterator[None]:
         raise ValueError(f"{key}: {reason}") from reason
 
 
-def _check_sweep(key: str, sweep: Mapping[str, Any], groups: Mapping[str, list[Ensemble]]) -> None:
+def _check_sweep(key: str, sweep: Mapping[str, Any], groups: Mapping[str, list[Planned]]) -> None:
     for group in sweep["groups"]:
         if group not in groups:
             known = ", ".join(groups)
@@ -146,7 +146,7 @@ def is_own(configuration: Configuration) -> bool:
     return configuration.get("study") == "own"
 
 
-def _check_ensemble(ensemble: Ensemble, setup: Setup) -> None:
+def _check_ensemble(ensemble: Planned, setup: Setup) -> None:
     scene, seeds, times = ensemble.scene, ensemble.seeds, ensemble.snapshot_times
     Surface(scene.contact, 1.0, 1.0, scene.is_periodic)  # refuses invalid ones
     own = setup.vary(dict(scene.varied))
@@ -168,7 +168,7 @@ def _check_ensemble(ensemble: Ensemble, setup: Setup) -> None:
         own.plan(scene.contact, strongest, duration, times)
 
 
-def _check_for_figures(ensemble: Ensemble, group: str, setup: Setup) -> None:
+def _check_for_figures(ensemble: Planned, group: str, setup: Setup) -> None:
     """Refuse scenes that the paper's figures and the tables of correlations cannot take."""
     scene, material = ensemble.scene, setup.vary(dict(ensemble.scene.varied)).material
     if group in _LEVELS and not scene.is_papers:
@@ -200,13 +200,13 @@ def _sentence(error: jsonschema.ValidationError) -> str:
     return f"{key} is not valid: {error.message}" + (f" ({meaning})" if meaning else "")
 
 
-def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
+def ensembles(configuration: Configuration) -> dict[str, list[Planned]]:
     """Expand each group of scenes, by name.
 
     A scene that occurs in several groups is one ensemble, with the largest number of seeds.
     """
-    groups: dict[str, list[Ensemble]] = {}
-    largest: dict[Scene, Ensemble] = {}
+    groups: dict[str, list[Planned]] = {}
+    largest: dict[Scene, Planned] = {}
     masks: dict[str, BlockMap] = {}
     for group, grids in configuration["scenes"].items():
         with _named(f"scenes.{group}"):
@@ -243,15 +243,15 @@ def setup(configuration: Configuration) -> Setup:
 
 
 def for_figures(
-    configuration: Configuration, groups: Mapping[str, list[Ensemble]]
-) -> dict[str, list[Ensemble]]:
+    configuration: Configuration, groups: Mapping[str, list[Planned]]
+) -> dict[str, list[Planned]]:
     """Return the ensembles for figures, by group: only surfaces of the paper's kind.
 
     The group `surfaces`, which has a figure of its own, keeps all. A study of one's own has no
     other group: each surface once in each direction.
     """
     if is_own(configuration):
-        first: dict[Scene, Ensemble] = {}
+        first: dict[Scene, Planned] = {}
         for each in chain.from_iterable(groups.values()):
             first.setdefault(replace(each.scene, varied=()), each)
         return {"surfaces": list(first.values())}
@@ -261,7 +261,7 @@ def for_figures(
     }
 
 
-def _expand(configuration: Configuration, grid: Mapping[str, Any] | None) -> Iterator[Ensemble]:
+def _expand(configuration: Configuration, grid: Mapping[str, Any] | None) -> Iterator[Planned]:
     if not grid:
         return
     axes = {**grid, **grid.get("material", {})}  # seeds go with n_p, and snapshots with each scene
@@ -287,7 +287,7 @@ def _expand(configuration: Configuration, grid: Mapping[str, Any] | None) -> Ite
         how |= {"direction": direction, "varied": constants, "n_rows": rows}
         for own in maps[constants]:
             scene = Scene(n, **lengths, **how, **own)
-            yield Ensemble(scene, range(first, first + count), duration, kept)
+            yield Planned(scene, range(first, first + count), duration, kept)
 
 
 def _maps(

@@ -17,7 +17,7 @@ from springblock.io.identity import RECORD, identity, read_record
 from springblock.model.direction import heading
 from springblock.provenance import STEPS, configuration_digest, digest
 from springblock.simulation.setup import Setup
-from springblock.study.configuration import Ensemble
+from springblock.study.configuration import Planned
 
 #: Folder with an empty file for each results folder that belongs to this `.snakemake`, by identity.
 MEMORY = Path(".snakemake", "springblock")
@@ -84,7 +84,7 @@ def begin(
 
 def contents(
     configuration: Mapping[str, Any],
-    ensembles: Mapping[str, Ensemble],
+    ensembles: Mapping[str, Planned],
     setups: Mapping[str, Setup],
     files: Iterable[str],
     spare: Iterable[str],
@@ -99,7 +99,7 @@ def contents(
     }
 
 
-def _needed(ensemble: Ensemble, setup: Setup, size: int) -> dict[str, Any]:
+def _needed(ensemble: Planned, setup: Setup, size: int) -> dict[str, Any]:
     """Return the identity of runs, the digest of their prelude, and the seeds of each batch."""
     from springblock.simulation.prelude import conditions  # loads numba
 
