@@ -28,10 +28,9 @@ Samples = dict[Any, Array]  #: a number of each of k realisations, (k,), by ense
 
 #: Bars over intervals.
 BAR: Look = {"elinewidth": 0.8, "capsize": 1.8, "capthick": 0.8, "linewidth": 0.7}
-#: A realisation, and the median of an ensemble.
+#: A realisation.
 DOT: Look = {"linestyle": "none", "marker": ".", "markersize": 2.8, "markeredgewidth": 0.0}
-DOT |= {"alpha": 0.6}
-MEDIAN: Look = {"linestyle": "none", "marker": "_", "markersize": 6.0, "markeredgewidth": 1.4}
+DOT |= {"alpha": 0.4}
 ZERO: Look = {"color": GREY, "linewidth": 0.5, "zorder": 0}  #: of a line at zero
 FRICTION = "static friction"
 LAG = r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)"
@@ -166,31 +165,25 @@ def draw_means(ax: Axes, samples: Mapping[Any, ArrayLike], color: Any, **look: A
     draw_points(ax, list(samples), intervals, color, **look)
 
 
-def draw_realisations(ax: Axes, samples: Samples, color: Any, **look: Any) -> None:
-    """Draw each realisation as a dot, and the median of each sample as a dash.
-
-    A sample may form two clusters, so that no realisation lies near the mean. The median of an even
-    number is the lower of the two middle values.
-    """
-    for place, sample in samples.items():
-        ax.plot(np.full(len(sample), place), sample, color=color, **DOT)
-    medians = [np.quantile(sample, 0.5, method="inverted_cdf") for sample in samples.values()]
-    ax.plot(list(samples), medians, color=color, **(MEDIAN | look))
+def draw_realisations(ax: Axes, place: float, sample: Array, color: Any) -> None:
+    """Draw each realisation of a sample as a dot, since these may form two clusters."""
+    ax.plot(np.full(len(sample), place), sample, color=color, **DOT)
 
 
 def name_places(ax: Axes, places: ArrayLike, scale: str = "log") -> None:
-    """Set a tick at each place of the x axis, with labels that do not overlap."""
+    """Set a tick at each place of the x axis whose label does not overlap the one before."""
     ticks = np.unique(places)
     ax.set_xscale(scale)
     even = np.log(ticks) if scale == "log" else ticks
     along = (even - even[0]) / max(1e-300, even[-1] - even[0])
     at = along * span(ax)
-    names, end = [], -np.inf
+    named, end = [], -np.inf
     for place, tick in zip(at, ticks, strict=True):
         half = 0.32 * style.SMALL * len(f"{tick:g}")
-        names.append(f"{tick:g}" if place - half > end else "")
-        end = place + half + 1.0 if names[-1] else end
-    ax.set_xticks(ticks, names)
+        if place - half > end:
+            named.append(tick)
+            end = place + half + 1.0
+    ax.set_xticks(named, [f"{tick:g}" for tick in named])
     ax.xaxis.minorticks_off()
     ax.margins(x=0.1, y=0.1)
 

@@ -72,15 +72,15 @@ FIGURES: dict[str, Declaration] = {
         title="Force and detachments, pillars",
         module="paper_results",
         caption="""a) Friction force over the normal force and b) share of first detachments per
-        bin, against time; c) static friction and d) t_max - t_avg against pillar size; on a flat
-        surface and on pillars. Figure 6 of the paper; c), d) and further sizes are additions.""",
+        bin, against time, on a flat surface and on pillars of the paper's sizes; c) static friction
+        and d) t_max - t_avg against pillar size. Figure 6 of the paper; c), d) are additions.""",
         groups=("flat", "pillars"),
         also=("small_pillars",),
         keys=("n_p",),
         marks=f"""a) Lines: means; bands: 5th to 95th percentile of the realisations; filled
         symbols: t_max, open ones: t_avg. b) Lines: means; bands: {INTERVALS}; symbols: the largest
-        share. c) Symbols: means; bars: {INTERVALS}. d) Dots: realisations; dashes: medians. Dashed
-        line in c), d): mean of the flat surface. {ENDS}""",
+        share. c), d) Symbols: means; bars: {INTERVALS}; dots: realisations; dashed line with grey
+        band: the flat surface. {ENDS}""",
     ),
     "figure_7": Declaration(
         title="Correlation of detachments on pillars",
@@ -88,8 +88,9 @@ FIGURES: dict[str, Declaration] = {
         caption="""Correlation of first detachment times along the sides of a pillar, c_x on sides
         along x and c_y on sides along y, against the distance r from the centre of the side,
         sliding along x: a) on a linear and b) on a logarithmic scale, up to the first interval that
-        includes zero, with fits of exp(-r/l_c) and A exp(-r/l_d). c) Lengths l_c and l_d of c_x
-        against pillar size. Figure 7 of the paper; fits with A free are an addition.""",
+        includes zero, with fits of exp(-r/l_c) and A exp(-r/l_d). c) Correlation length l_c and
+        decay length l_d of c_x against pillar size. Figure 7 of the paper; fits with A free are an
+        addition.""",
         draws="correlations",
         groups=("pillars",),
         marks=f"""Symbols: means over all pillars and realisations; bands and bars:
@@ -107,28 +108,29 @@ FIGURES: dict[str, Declaration] = {
     "figure_9": Declaration(
         title="Force and detachments, grooved pillars",
         module="paper_results",
-        caption="""Left: friction force over the normal force; right: share of first detachments per
-        bin; against time, from the earliest moment at which a mean force reaches 80 % of its
-        maximum. Grooved pillars, sliding along and across the grooves; a row for each width of
-        pawls and grooves, n_p2/n_s2. Figure 9 of the paper, which does not give its sizes.""",
+        caption="""Left: friction force over the normal force, from 70 % of the highest mean on;
+        right: share of first detachments per bin; against time. Grooved pillars, sliding along and
+        across the grooves; a row for each width of pawls and grooves, n_p2/n_s2, those with the
+        clearest second load peak first. Figure 9 of the paper, which does not give its sizes.""",
         groups=("grooves",),
         keys=PATTERN,
         marks=f"""Thin lines: the first {SINGLE} realisations; thick lines: means; bands:
         {INTERVALS}. Triangles: peaks of the mean force that reach 90 % of its maximum, with a
         prominence of more than two standard errors and 1 % of the maximum; peaks of realisations at
-        different times may average out. Lesser peak: mean and 95 % t interval of the prominence of
-        each realisation's second most prominent peak over its largest force (0 with one peak).
+        different times may average out. Above each row: how far the force of a realisation falls
+        from its lesser peak to the minimum between its peaks, over its largest force (0 with one
+        peak); means and 95 % t intervals.
         {ENDS}""",
     ),
     "supplement_levels": Declaration(
         title="A third level",
         module="supplement",
         caption="""As figure 9, on pillars cut once more by grooves of a third level, n_p3/n_s3;
-        along and across refer to the grooves of the second level. The axis of the force does not
-        begin at zero. The paper expects the effects of two levels to remain.""",
+        along and across refer to the grooves of the second level. The paper expects the effects of
+        two levels to remain.""",
         groups=("third_level",),
         keys=PATTERN,
-        marks=f"""Lines, bands, triangles and the lesser peak are those of figure 9. {ENDS}""",
+        marks=f"""Lines, bands, triangles and the numbers above are those of figure 9. {ENDS}""",
     ),
     "surfaces": Declaration(
         title="Surfaces of your own",

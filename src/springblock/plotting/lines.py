@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 
 from springblock.io.rows import Row
-from springblock.io.schemas import AXES
+from springblock.io.schemas import AXES, SETUP, said
 from springblock.model.direction import degrees
 from springblock.model.material import expanded, law_units
 from springblock.model.scene import LENGTHS, TEXTS, Scene
@@ -54,11 +54,19 @@ def lines(rows: Iterable[Row], over: str) -> Lines:
     ordered = sorted(swept, key=lambda names: [_by_size(value) for _, value in names])
     return {
         name: dict(sorted(swept[names].items()))
-        for names, name in zip(ordered, _named(ordered), strict=True)
+        for names, name in zip(ordered, _named(ordered, units_of(rows)), strict=True)
     }
 
 
-def _named(every: list[Names]) -> list[str]:
+def units_of(rows: Iterable[Row]) -> dict[str, str]:
+    """Return the units of the constants of a setup, and of laws, by name; "" without one."""
+    units = {field.name: said(field)[0] for field in SETUP}
+    for law in {row["law"] for row in rows}:
+        units |= law_units({"law": law})
+    return {name: "" if unit == "1" else unit for name, unit in units.items()}
+
+
+def _named(every: list[Names], units: Mapping[str, str]) -> list[str]:
     """Name each line by its surface and by what is not the same in all of them."""
     common = set.intersection(*map(set, every))
     masks = {mask for names in every if (mask := dict(names).get("mask"))}
@@ -72,7 +80,8 @@ def _named(every: list[Names]) -> list[str]:
             stem = _DIGEST.sub("", mask)
             surface = stem if stems[stem] == 1 else mask
         own = dict(names.items() - common)
-        told = [f"{in_math(name)} = {own[name]}" for name in names if name in own.keys() - hidden]
+        shown = [name for name in names if name in own.keys() - hidden]
+        told = [f"{in_math(name)} = {own[name]} {units.get(name, '')}".rstrip() for name in shown]
         found.append(", ".join(filter(None, [surface, *told])) or "as the study")
     return found
 

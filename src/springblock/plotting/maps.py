@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
+from matplotlib.colorbar import Colorbar
 from matplotlib.colors import ListedColormap, TwoSlopeNorm, to_rgb
 from matplotlib.image import AxesImage
 from matplotlib.patches import FancyArrowPatch, Patch
@@ -64,7 +65,7 @@ def draw_mean_times(ax: Axes, times: Array, label: str, axes: str = "/l") -> Non
     """Map mean t_det/t_max on a scale of its own."""
     norm = scale(times)
     image = draw_map(ax, times, axes, cmap=BEFORE_AFTER, norm=norm)
-    color_bar(ax, image, label, ticks=_ticks(norm))
+    _cut(color_bar(ax, image, f"{label} (two scales)", ticks=_ticks(norm)))
 
 
 def scale(times: Array) -> TwoSlopeNorm:
@@ -90,12 +91,22 @@ def draw_times(ax: Axes, run: Run, until: float = math.inf) -> AxesImage:
 
 
 def _draw_times_bar(ax: Axes, run: Run) -> None:
-    label = r"first detachment $t_\mathrm{det}/t_\mathrm{max}$"
+    label = r"first detachment $t_\mathrm{det}/t_\mathrm{max}$ (two scales)"
     norm = scale(run.t_det / run.t_max)
     look: Look = {"orientation": "horizontal", "ticks": _ticks(norm)}
-    bar = color_bar(ax, ScalarMappable(norm, BEFORE_AFTER), label, **look).ax
+    bar = _cut(color_bar(ax, ScalarMappable(norm, BEFORE_AFTER), label, **look))
     for place, side, name in ((0.0, "left", "precursors"), (1.0, "right", "after the force peak")):
         bar.text(place, 1.15, name, ha=side, va="bottom", transform=bar.transAxes)
+
+
+def _cut(bar: Colorbar) -> Axes:
+    """Cut a bar of two scales where the second one begins, and return its panel."""
+    ends = ([1.0, 1.0], [-0.15, 1.15])
+    ax, is_upright = bar.ax, bar.orientation == "vertical"
+    place = ax.get_yaxis_transform() if is_upright else ax.get_xaxis_transform()
+    look: Look = {"color": "white", "linewidth": 2.0, "clip_on": False, "transform": place}
+    ax.plot(*(ends[::-1] if is_upright else ends), **look, zorder=10.0)
+    return ax
 
 
 def painted(run: Run, until: float = math.inf, since: float = math.inf) -> Array:

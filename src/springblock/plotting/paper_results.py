@@ -31,6 +31,9 @@ _PARTS = {
     "y": (VERMILION, "s", "sides along $y$ ($x_p$ = const.)"),
     "x": (BLUE, "D", "sides along $x$ ($y_p$ = const.)"),
 }
+_IN_TIME = (0, 2, 3, 6, 10, 20, 30, 60)  #: n_p in the curves of figure 6: the paper's
+_SMALL: Look = {"markersize": 1.8, "capsize": 2.2}  #: smaller than most intervals
+_SIZE = "size of the pillars $n_p$ (blocks)"
 _FLOOR = 0.01  #: %, where the logarithmic axis of detachments begins in figure 6
 _LEAST = 0.01  #: c(r) at the foot of the logarithmic axis in figure 7
 _SIDES: dict[str, Look] = {
@@ -42,7 +45,7 @@ _FREE = r"$A\,\exp(-r/l_d)$"
 _DASHED: Look = {"linestyle": (0, (3.5, 1.2)), "linewidth": 0.9}  #: with A free
 #: Colour and name of sliding directions on grooves along x; others are oblique.
 _WAYS = {"x": (BLUE, "along grooves"), "y": (VERMILION, "across grooves")}
-_SHOWN = 0.8  #: share of the maximum from which figure 9 shows the force
+_SHOWN = 0.7  #: share of the highest mean force from which figure 9 shows forces
 
 
 def figure_2(runs: Sequence[Run]) -> Figure:
@@ -59,9 +62,7 @@ def figure_2(runs: Sequence[Run]) -> Figure:
     force, _, blocks, enlarged = panels
     for ax, name in ((force, "enlarged at the right"), (blocks, None)):
         ax.axvspan(*zoom, color="0.93", linewidth=0.0, zorder=0, label=name)
-    early = 2.0 * run.t_max < run.time[-1]  # room beside the peak
-    force.legend(loc="lower right" if early else "upper left")
-    blocks.legend(loc="upper right" if early else "upper left")
+    style.legend_above(picture, force, blocks, ncols=4)
     end, height, before = MICRO * run.t_max, 6.0, MICRO * _BEFORE
     maps.arrow(enlarged, (end, height), (end - 0.8 * before, height))
     enlarged.text(end - 0.4 * before, 1.3 * height, "precursors", ha="center", va="bottom")
@@ -113,35 +114,39 @@ def _draw_rings(ax: Axes, times: Array) -> None:
 
 
 def figure_6(ensembles: BySize) -> Figure:
-    """Draw a) force, b) detachments over time; c) static friction, d) t_max - t_avg over n_p."""
+    """Draw a) force, b) detachments over time; c) static friction, d) t_max - t_avg over n_p.
+
+    The paper's sizes only in a) and b), where more could not be told apart.
+    """
     ensembles = dict(sorted(ensembles.items()))
     ratios: Look = {"width_ratios": (90, 61), "height_ratios": (46, 40)}
     picture, panels = style.panels(style.DOUBLE, 118.0, "ac;bd", **ratios)
     force, blocks, static, lag = panels
-    _draw_time(force, blocks, ensembles)
     looks = style.pillar_looks(ensembles)
+    shown = {n_p: runs for n_p, runs in ensembles.items() if n_p in _IN_TIME} or ensembles
+    _draw_time(force, blocks, shown, looks)
     for n_p, runs in ensembles.items():
         highest = np.array([run.static_friction for run in runs])
         lags = MICRO * np.array([run.t_max - run.t_avg for run in runs])
         if n_p:
-            curves.draw_means(static, {n_p: highest}, linestyle="none", **looks[n_p])
-            curves.draw_realisations(lag, {n_p: lags}, looks[n_p]["color"])
-        else:
-            _draw_flat(static, highest)
-            _draw_flat(lag, lags)
+            curves.draw_realisations(lag, n_p, lags, looks[n_p]["color"])
+        for ax, sample in ((static, highest), (lag, lags)):
+            if n_p:
+                curves.draw_means(ax, {n_p: sample}, linestyle="none", **(looks[n_p] | _SMALL))
+            else:
+                _draw_flat(ax, sample)
     for ax in (static, lag):
         curves.name_places(ax, [n_p for n_p in ensembles if n_p])
     lag.axhline(0.0, **curves.ZERO)
-    static.set_ylabel(curves.FRICTION)
-    static.tick_params(labelbottom=False)
-    lag.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel=curves.LAG)
+    static.set(xlabel=_SIZE, ylabel=curves.FRICTION)
+    lag.set(xlabel=_SIZE, ylabel=curves.LAG)
     style.legend_above(picture, force, ncols=8)
     return picture
 
 
-def _draw_time(force: Axes, blocks: Axes, ensembles: BySize) -> None:
+def _draw_time(force: Axes, blocks: Axes, ensembles: BySize, looks: Mapping[int, Look]) -> None:
     """Draw mean curves; on those of the force, markers at t_max and open ones at t_avg."""
-    highest, looks = 0.0, style.pillar_looks(ensembles)
+    highest = 0.0
     for n_p, runs in ensembles.items():
         curve, look = statistics.whole_curve(runs), looks[n_p]
         name = f"$n_p$ = {n_p}" if n_p else "flat"
@@ -159,8 +164,7 @@ def _draw_time(force: Axes, blocks: Axes, ensembles: BySize) -> None:
     for face, name in ((GREY, r"$t_\mathrm{max}$"), ("white", r"$t_\mathrm{avg}$")):
         sign: Look = {"marker": "o", "linestyle": "none", "markerfacecolor": face}
         force.plot([], [], color=GREY, **sign, label=name)
-    force.set(ylabel=FORCE, ylim=(0.0, 1.07 * highest), xlim=(0.0, None))
-    force.tick_params(labelbottom=False)
+    force.set(xlabel="time (µs)", ylabel=FORCE, ylim=(0.0, 1.07 * highest), xlim=(0.0, None))
     blocks.set(xlabel="time (µs)", xlim=force.get_xlim(), yscale="log", ylim=(_FLOOR, 100.0))
     blocks.yaxis.set_major_formatter("{x:g}")
 
@@ -191,7 +195,7 @@ def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame") -> Figure:
         told = curve[(curve["ci_low"] > 0.0).cummin()]  # not zero
         for ax, part in ((linear, curve[1:]), (log, told[1:])):
             values = Interval(*part[["correlation", "ci_low", "ci_high"]].to_numpy().T)
-            look = _SIDES[str(side)] | {"label": f"$c_{side}(r)$"}
+            look = _SIDES[str(side)] | {"label": f"$c_{side}(r)$, $n_p$ = {n_p}"}
             curves.draw_band(ax, part["r"], values, **look)
         _draw_fits(log, str(side), curve, shown.loc[side])
     linear.axhline(0.0, **curves.ZERO)
@@ -203,8 +207,8 @@ def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame") -> Figure:
         ax.set(xlabel="distance along the side $r$ (blocks)", ylabel="time correlation $c(r)$")
         ax.set_xlim(0.0, None)
         ax.xaxis.set_major_locator(MaxNLocator(integer=True, steps=[1, 2, 5, 10]))
-        ax.legend(loc="upper right", title=f"$n_p$ = {n_p}")
     _draw_lengths(sizes, lengths[lengths["side"] == "x"])
+    style.legend_above(picture, log, sizes, ncols=6)
     return picture
 
 
@@ -222,38 +226,42 @@ def _draw_fits(ax: Axes, side: str, curve: "pd.DataFrame", length: "pd.Series") 
 def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
     """Draw l_c of c_x over log n_p; open points: l_d, with A free."""
     for columns, face, aside, label in (
-        (["l_c", "ci_low", "ci_high"], BLUE, 0.96, _EXPONENTIAL),
-        (["tail", "tail_low", "tail_high"], "white", 1.04, _FREE),
+        (["l_c", "ci_low", "ci_high"], BLUE, 0.96, "correlation length $l_c$"),
+        (["tail", "tail_low", "tail_high"], "white", 1.04, "decay length $l_d$"),
     ):
         look = _SIDES["x"] | {"markerfacecolor": face, "label": label}
         curves.draw_points(ax, aside * lengths["n_p"], lengths[columns], **look)
     curves.name_places(ax, lengths["n_p"])
-    ax.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel="$l_c$, $l_d$ of $c_x$ (blocks)")
-    ax.set_ylim(0.0, None)
-    ax.legend(loc="lower right")
+    ax.set(xlabel=_SIZE, ylabel="lengths in $c_x$ (blocks)", ylim=(0.0, None))
 
 
-def figure_9(ensembles: Mapping[Grooves, Sequence[Run]], lowest_force: float = 0.0) -> Figure:
-    """Draw force and detachments on grooved pillars, a row for each pattern, with the same axes."""
+def figure_9(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
+    """Draw force and detachments on grooved pillars, a row for each pattern, with the same axes.
+
+    Rows in descending order of their clearest second load peak.
+    """
     found = {key: statistics.whole_curve(runs) for key, runs in sorted(ensembles.items())}
-    rows = list(dict.fromkeys(key[:-1] for key in found))
+    falls = {key: [statistics.prominence(friction(run)) for run in ensembles[key]] for key in found}
+    clearest = sorted(falls, key=lambda key: -np.mean(falls[key]))
+    rows = list(dict.fromkeys(key[:-1] for key in clearest))
     letters = [ascii_lowercase[2 * i : 2 * i + 2] for i in range(len(rows))]
     look: Look = {"width_ratios": (95, 57), "sharex": True}
     height = 22.0 + 43.0 * len(rows)
     picture, panels = style.panels(style.DOUBLE, height, ";".join(letters), **look)
     for force, blocks, row in zip(panels[::2], panels[1::2], rows, strict=True):
-        peaks = [f"{_pattern_name(row)}, lesser peak:"]
+        told = []
         for direction, curve in [(key[-1], found[key]) for key in found if key[:-1] == row]:
             color, name = _WAYS.get(direction, (style.GREEN, f"at {direction}° to grooves"))
             curves.draw_single_forces(force, curve, color)
             curves.draw_load_peaks(force, curve, color, name)
             curves.draw_detachments(blocks, curve, color)
-            peaks.append(f"{name} {_lesser_peak(ensembles[*row, direction])}")
+            told.append(f"{name.removesuffix(' grooves')} {_percent(falls[*row, direction])}")
         force.set_ylabel(FORCE)
-        force.text(0.02, 0.05, "\n".join(peaks), transform=force.transAxes)
+        named = f"{_pattern_name(row)}: force falls between its peaks by"
+        force.set_title("\n".join([named, ", ".join(told)]), loc="right", fontsize="medium")
         force.sharey(panels[0])
         blocks.sharey(panels[1])
-    _fit_forces(panels[0], list(found.values()), lowest_force)
+    _fit_forces(panels[0], list(found.values()))
     panels[1].set_ylim(0.0, 1.04 * max(ax.dataLim.y1 for ax in panels[1::2]))
     for ax in panels[-2:]:
         ax.set_xlabel("time (µs)")
@@ -276,17 +284,17 @@ def _pattern_name(pattern: tuple[int, int, int, int, str]) -> str:
     return ", ".join(levels) + (f", cut along {along_3}" if along_3 else "")
 
 
-def _lesser_peak(runs: Sequence[Run]) -> str:
-    """Return the mean prominence of the lesser load peaks, % of the largest force, and its CI."""
-    prominences = [statistics.prominence(friction(run)) for run in runs]
-    mean, low, high = statistics.mean_interval(style.PERCENT * np.array(prominences))
-    return f"{mean:.1f} %" + (f" [{low:.1f}, {high:.1f}]" if len(runs) > 1 else "")
+def _percent(shares: Sequence[float]) -> str:
+    """Return the mean of shares in percent and, of several, its interval."""
+    mean, low, high = statistics.mean_interval(style.PERCENT * np.array(shares))
+    return f"{mean:.1f} %" + (f" [{low:.1f}, {high:.1f}]" if len(shares) > 1 else "")
 
 
-def _fit_forces(ax: Axes, every: Sequence[LoadCurves], lowest: float) -> None:
-    """Fit an axis to mean forces from `_SHOWN` of the maximum on, with room for triangles."""
+def _fit_forces(ax: Axes, every: Sequence[LoadCurves]) -> None:
+    """Fit an axis to mean forces above `_SHOWN` of the highest, with room for triangles."""
     means = [(MICRO * c.time, statistics.mean_of_rest(c.friction).mean) for c in every]
-    start = min(time[np.argmax(mean >= _SHOWN * np.nanmax(mean))] for time, mean in means)
-    end = max(time[np.isfinite(mean)][-1] for time, mean in means)
     highest = max(np.nanmax(mean) for _, mean in means)
+    lowest = _SHOWN * highest
+    start = min(time[np.argmax(mean >= lowest)] for time, mean in means)
+    end = max(time[np.isfinite(mean)][-1] for time, mean in means)
     ax.set(xlim=(start, end), ylim=(lowest, highest + 0.15 * (highest - lowest)))

@@ -17,6 +17,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colorbar import Colorbar
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from springblock.files import whole_file
 
@@ -59,9 +60,9 @@ METHODS: dict[str, Look] = {
 _MARKERS = {2: "v", 3: "<", 4: ">", 5: "p", 6: "^", 7: "d", 8: "8", 9: "h"}
 _MARKERS |= {10: "s", 20: "D", 30: "P", 60: "X"}
 _LARGEST = 60  #: n_p at the light end of the colours, and two at the dark one
-#: Ordered for all colour vision, up to a green whose contrast with white is 2.7; yellow fades.
+#: Ordered for all colour vision, from blue to an orange; the yellow beyond it fades on white.
 _SHADES = LinearSegmentedColormap.from_list(
-    "shades", colormaps["viridis"](np.linspace(0.0, 0.64, 33))
+    "shades", colormaps["plasma"](np.linspace(0.0, 0.66, 33))
 )
 
 SMALL = 7.0  #: pt, ticks, legends and labels inside a panel
@@ -114,7 +115,8 @@ def panels(
     order of their letters, with "a)" above each if there are several. `placing` are further
     arguments of `Figure.subplot_mosaic`.
     """
-    picture = Figure(figsize=(width * MM, height * MM), layout="constrained")
+    layout = ConstrainedLayoutEngine(w_pad=2.0 * MM)  # labels of neighbours do not touch
+    picture = Figure(figsize=(width * MM, height * MM), layout=layout)
     blocks = [[list(row) for row in block.split(";")] for block in letters.split("|")]
     mosaic: Any = [[block] for block in blocks] if len(blocks) > 1 else blocks[0]
     placed = picture.subplot_mosaic(mosaic, **placing)

@@ -18,8 +18,8 @@ _LINE = 120  #: characters that fit above a row
 
 
 def supplement_levels(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
-    """Draw force (axis from 0.3 on) and detachments on grooves of three levels."""
-    return figure_9(ensembles, lowest_force=0.3)
+    """Draw force and detachments on grooves of three levels."""
+    return figure_9(ensembles)
 
 
 def surfaces(ensembles: Mapping[str, Sequence[Record]]) -> Figure:

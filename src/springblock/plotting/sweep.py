@@ -10,12 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from springblock.io.rows import Row
-from springblock.io.schemas import SCENE, SETUP, said
 from springblock.model.material import law_units
 from springblock.model.scene import Scene
 from springblock.plotting import curves, style
 from springblock.plotting.caption import sample_in_words
-from springblock.plotting.lines import Lines, Places, in_math
+from springblock.plotting.lines import Lines, Places, in_math, units_of
 from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, PURPLE, VERMILION, Look
 
 #: What is drawn of each realisation: the label of its axis, and its value there.
@@ -31,24 +30,21 @@ OBSERVABLES: dict[str, tuple[str, Callable[[Row], float]]] = {
 _COLORS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, GREY)
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 _DECADE = 10.0  #: ratio of the largest to the smallest place from which on the axis is logarithmic
-#: Observables that form two clusters of realisations where runs have two load peaks.
-_CLUSTERED = ("t_max", "t_max-t_avg")
 _SIGN, _LETTER, _LINE = 12.0, 1.375, 3.6  #: mm, widths and height in the legend
 
 
-def caption(found: Lines, over: str, observables: Sequence[str]) -> str:
-    """Return the caption of lines: observables, surfaces, seeds and marks."""
+def caption(found: Lines, over: str) -> str:
+    """Return the caption of lines: surfaces, seeds and marks."""
     seeds: dict[Scene, list[int]] = {}
     for row in drawn(found):
         seeds.setdefault(Scene.from_row(row), []).append(row["seed"])
     sample = {scene: range(min(some), max(some) + 1) for scene, some in seeds.items()}
-    clustered = " and ".join(name.replace("-", " - ") for name in observables if name in _CLUSTERED)
     along = " and in n_s, in proportion to it" if over == "n_p" else ""
     return (
         f"Lines join ensembles that differ only in the quantity on the axis{along}. "
         f"{sample_in_words(sample)} Symbols, slightly offset: means; bars: 95 % t intervals over "
         "realisations."
-    ) + (f" For {clustered}, dots: realisations; dashes: medians." if clustered else "")
+    )
 
 
 def drawn(found: Lines) -> list[Row]:
@@ -79,7 +75,7 @@ def draw(found: Lines, over: str, observables: Sequence[str]) -> Figure:
             moved = _aside(runs, every, i, len(found), log)
             _draw_line(ax, observable, moved, _COLORS[i % len(_COLORS)], look)
         curves.name_places(ax, every, "log" if log else "linear")
-    panels[-1].set_xlabel(_axis(over, drawn(found)[0]))
+    panels[-1].set_xlabel(_axis(over, drawn(found)))
     if is_named:
         style.legend_above(picture, panels[0], loc="outside upper left", ncols=columns)
     return picture
@@ -110,18 +106,12 @@ def _aside(runs: Places, every: Sequence[float], line: int, lines: int, log: boo
 def _draw_line(ax: Axes, observable: str, runs: Places, color: str, look: Look) -> None:
     """Draw an observable of one line by place."""
     _, value = OBSERVABLES[observable]
-    samples = {place: np.array([value(row) for row in rows]) for place, rows in runs.items()}
-    if observable in _CLUSTERED:
-        joined: Look = {"linestyle": "-", "linewidth": 0.7, "label": look["label"]}
-        curves.draw_realisations(ax, samples, color, **joined)
-    else:
-        curves.draw_means(ax, samples, color, **look)
+    samples = {place: [value(row) for row in rows] for place, rows in runs.items()}
+    curves.draw_means(ax, samples, color, **look)
 
 
-def _axis(over: str, row: Row) -> str:
+def _axis(over: str, rows: list[Row]) -> str:
     """Return the name and unit of an axis, as in the tables."""
-    units = {field.name: said(field)[0] for field in (*SCENE, *SETUP)} | {"direction": "degrees"}
-    of_law = law_units(row)
-    shown = "N" if over == "n_blocks" else in_math(over)
-    name, unit = (over, of_law[over]) if over in of_law else (shown, units[over])
-    return name + ("" if unit in ("", "1") else f" ({unit})")
+    shown = over if over in law_units(rows[0]) else in_math(over.replace("n_blocks", "N"))
+    unit = (units_of(rows) | {"direction": "degrees"}).get(over, "blocks")
+    return shown + (f" ({unit})" if unit else "")
