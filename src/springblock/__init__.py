@@ -4,10 +4,13 @@ The model of Costagliola, Bosia & Pugno, Int. J. Solids Struct. 243, 111525 (202
 doi:10.1016/j.ijsolstr.2022.111525.
 """
 
+from importlib.metadata import version
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from springblock.analysis.runs import Runs as Runs
+    from springblock.analysis.runs import ensemble as ensemble
     from springblock.io.fields import write_fields as write_fields
     from springblock.io.records import read as read
     from springblock.model.asperities import draw_friction as draw_friction
@@ -16,24 +19,30 @@ if TYPE_CHECKING:
     from springblock.model.surface import Surface as Surface
     from springblock.plotting.film import animate as animate
     from springblock.plotting.still import plot as plot
+    from springblock.simulation.fields import Fields as Fields
     from springblock.simulation.motion import SimulationError as SimulationError
     from springblock.simulation.prelude import Prelude as Prelude
     from springblock.simulation.prelude import compute_prelude as compute_prelude
     from springblock.simulation.run import Realisation as Realisation
     from springblock.simulation.setup import Setup as Setup
     from springblock.simulation.simulate import simulate as simulate
+
+    __version__: str
 else:  # mypy would accept any name if it saw `__getattr__`
     _MODULES = {
+        "Fields": "simulation.fields",
         "Material": "model.material",
         "Pattern": "model.pattern",
         "Prelude": "simulation.prelude",
         "Realisation": "simulation.run",
+        "Runs": "analysis.runs",
         "Setup": "simulation.setup",
         "SimulationError": "simulation.motion",
         "Surface": "model.surface",
         "animate": "plotting.film",
         "compute_prelude": "simulation.prelude",
         "draw_friction": "model.asperities",
+        "ensemble": "analysis.runs",
         "plot": "plotting.still",
         "read": "io.records",
         "simulate": "simulation.simulate",
@@ -44,6 +53,8 @@ else:  # mypy would accept any name if it saw `__getattr__`
 
     def __getattr__(name: str) -> object:
         """Import a public name when it is first used (PEP 562): `import springblock` is quick."""
+        if name == "__version__":
+            return version("springblock")
         if name not in _MODULES:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         return resolve_name(f"springblock.{_MODULES[name]}:{name}")

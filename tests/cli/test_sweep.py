@@ -7,7 +7,6 @@ import subprocess
 import sys
 import time
 
-import psutil
 import pyarrow.parquet as pq
 import pytest
 
@@ -74,25 +73,6 @@ def test_its_runs_are_those_of_single_commands_and_are_not_run_again(springblock
 )
 def test_what_cannot_be_run_is_refused_in_a_sentence(springblock, folder, others, sentence):
     assert sentence in swept(springblock, folder, *others, refused=True)
-
-
-def test_the_workers_of_a_killed_sweep_end(tmp_path):
-    words = ("sweep", "--n-blocks", "60", "--seeds", "999", "--jobs", "2")
-    run = subprocess.Popen(
-        [sys.executable, "-m", "springblock", *words, "--output", str(tmp_path / "runs")],
-        stderr=subprocess.DEVNULL,
-    )
-    while not list(tmp_path.rglob("*.parquet")):
-        assert run.poll() is None
-        time.sleep(0.05)
-    workers = psutil.Process(run.pid).children(recursive=True)
-    assert len(workers) > 1
-    run.kill()
-    run.wait(60.0)
-    _, left = psutil.wait_procs(workers, timeout=10.0)
-    for worker in left:
-        worker.kill()
-    assert left == []
 
 
 @pytest.mark.parametrize(

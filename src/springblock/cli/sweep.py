@@ -1,14 +1,8 @@
 """springblock sweep: ensembles for several constants and directions, without Snakemake."""
 
-import os
-import signal
-import sys
-import threading
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import replace
 from functools import partial
 from itertools import product
-from multiprocessing import active_children, get_context, parent_process
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -27,6 +21,7 @@ from springblock.cli.options import (
 from springblock.cli.simulate import SETUP, batch_table, setup_of
 from springblock.io.identity import identity, metadata
 from springblock.io.parquet import load, origin_of, read, write
+from springblock.io.rows import Row
 from springblock.io.schemas import SUMMARY
 from springblock.model.direction import normalised
 from springblock.model.material import expanded
@@ -36,6 +31,7 @@ from springblock.plotting.lines import axes, lines
 from springblock.plotting.style import save
 from springblock.simulation.scenes import columns_of, prelude_of, realise
 from springblock.simulation.setup import Setup
+from springblock.simulation.threads import in_threads
 
 _BATCH = 5  #: seeds of one job
 _DRAWN = ("static_friction", "t_max", "t_avg")  #: observables of the figures
@@ -76,14 +72,14 @@ class Job(NamedTuple):
             raise ValueError(f"{self.file} has {other}; choose another folder")
         return True
 
-    def run(self) -> int:
-        """Simulate the seeds, and return their number."""
-        scene, rows, begun = self.scene, [], prelude_of(self.scene, self.setup)
+    def run(self) -> tuple["Job", list[Row]]:
+        """Simulate the seeds, and return their rows."""
+        scene, rows, begun = self.scene, list[Row](), prelude_of(self.scene, self.setup)
+        how = {"prelude": begun, "duration": self.duration, "progress": False}
         for seed in self.seeds:
-            run = realise(scene, self.setup, seed, prelude=begun, duration=self.duration)
+            run = realise(scene, self.setup, seed, **how)
             rows.append(self.identity | columns_of(run, scene, seed))
-        write(batch_table(rows), self.file, self.metadata)
-        return len(self.seeds)
+        return self, rows
 
 
 def _varied(pairs: tuple[str, ...]) -> list[Varied]:
@@ -113,7 +109,7 @@ _SWEPT = [
     click.option(
         "--duration", type=float, help="Simulated time, s; by default until after the force peak."
     ),
-    defaulted("--jobs", type=click.IntRange(1), default=1, help="Parallel processes."),
+    defaulted("--jobs", type=click.IntRange(1), default=1, help="Cores to use."),
     click.option(
         "--output",
         type=click.Path(file_okay=False, path_type=Path),
@@ -171,43 +167,8 @@ def _own(varied: Varied, usual: Setup) -> Varied:
 
 
 def _run(work: list[Job], jobs: int) -> None:
-    """Run all jobs in parallel processes, with a count of realisations."""
-    number = sum(len(job.seeds) for job in work)
-    with (
-        tqdm(total=number, unit="realisation") as bar,
-        ProcessPoolExecutor(jobs, get_context("spawn"), _end_when_terminated) as pool,
-    ):
-        # Workers inherit that Ctrl-C is ignored; they are terminated below.
-        handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
-        running = [pool.submit(_run_one, job) for job in work]
-        signal.signal(signal.SIGINT, handler)
-        try:
-            for done in as_completed(running):
-                bar.update(done.result())
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            for worker in active_children():
-                worker.terminate()
-            raise
-
-
-def _end_when_terminated() -> None:
-    """Let a worker remove its temporary files when it is terminated, and end with its parent."""
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-
-    def end(*_: object) -> None:
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # a second signal would disturb the first
-        sys.exit()
-
-    signal.signal(signal.SIGTERM, end)
-
-
-def _end_with_parent() -> None:
-    if parent := parent_process():
-        parent.join()
-        os._exit(1)
-
-
-def _run_one(job: Job) -> int:
-    """Run a job, unless the worker was terminated: its queue may still hold some."""
-    return 0 if signal.getsignal(signal.SIGTERM) is signal.SIG_IGN else job.run()
+    """Run all jobs in parallel, with a count of realisations, and write their files."""
+    with tqdm(total=sum(len(job.seeds) for job in work), unit="realisation") as bar:
+        for job, rows in in_threads([job.run for job in work], jobs):
+            write(batch_table(rows), job.file, job.metadata)
+            bar.update(len(rows))

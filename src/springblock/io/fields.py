@@ -7,13 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from springblock.files import whole_file
-from springblock.simulation.fields import BlockState, Fields
+from springblock.simulation.fields import DIMENSIONS, VARIABLES, BlockState, Fields
 
-#: Dimensions of a field.
-_PLACED = ("time", "y", "x")
 _ABOUT = {
     "Conventions": "CF-1.11",
     "title": "Fields of a spring-block model of the onset of frictional sliding",
@@ -22,21 +19,6 @@ _ABOUT = {
 #: Exceptions that scipy raises on a truncated file, one of another format or of impossible sizes.
 _UNREADABLE = (AttributeError, LookupError, MemoryError, OSError, TypeError, ValueError)
 
-#: Units and meaning of each variable. Coordinates have no attribute `axis`: ParaView would take X
-#: and Y for longitude and latitude.
-VARIABLES = {
-    "time": ("s", "time since the slider began to move"),
-    "y": ("m", "position of the block centre along y, free of strain"),
-    "x": ("m", "position of the block centre along x, free of strain"),
-    "displacement_x": ("m", "displacement along x"),
-    "displacement_y": ("m", "displacement along y"),
-    "velocity_x": ("m s-1", "velocity along x"),
-    "velocity_y": ("m s-1", "velocity along y"),
-    "slip": ("m", "distance from the initial position on the substrate"),
-    "stress_x": ("Pa", "shear stress on the substrate along x"),
-    "stress_y": ("Pa", "shear stress on the substrate along y"),
-    "state": ("1", "state of the block"),
-}
 _COMMENTS = {
     "stress": "force per l^2: the motive force of a stuck block, the friction force of a sliding "
     "one; missing where the block has no contact",
@@ -59,7 +41,7 @@ def write_fields(fields: Fields, path: str | Path, **attributes: object) -> None
     check_name(Path(path))
     if not len(fields.time):
         raise ValueError("there are no fields to write: the run was given no snapshot_times")
-    columns = _columns(fields)
+    columns = fields.variables()
     with whole_file(Path(path)) as partial, netcdf_file(partial, "w", version=2) as file:
         for name, value in (_ABOUT | attributes).items():
             if hasattr(file, name):  # scipy's object uses the name
@@ -67,10 +49,10 @@ def write_fields(fields: Fields, path: str | Path, **attributes: object) -> None
             # scipy would store a float in single precision, and text as Latin-1
             stored = np.float64(value) if isinstance(value, float) else str(value).encode()
             setattr(file, name, stored)
-        for name in _PLACED:
+        for name in DIMENSIONS:
             file.createDimension(name, len(columns[name]))
         for name, (unit, meaning) in VARIABLES.items():
-            placed = (name,) if name in _PLACED else _PLACED
+            placed = (name,) if name in DIMENSIONS else DIMENSIONS
             variable = file.createVariable(name, columns[name].dtype, placed)
             variable[:] = columns[name]
             for key, value in _attributes(name, unit, meaning).items():
@@ -81,26 +63,6 @@ def check_name(path: Path) -> None:
     """Refuse a file whose type is not .nc."""
     if path.suffix != ".nc":
         raise ValueError(f"fields are written to a file of type .nc, not to {path}")
-
-
-def _columns(fields: Fields) -> dict[str, NDArray[Any]]:
-    """Return the values of each variable."""
-    rows, columns = fields.contact.shape
-    in_contact = np.where(fields.contact, 0.0, np.nan)
-    vectors = {
-        "displacement": fields.displacement,
-        "velocity": fields.velocity,
-        "stress": fields.stress + in_contact,
-    }
-    return {
-        "time": fields.time,
-        "y": fields.spacing * (np.arange(rows) + 0.5),
-        "x": fields.spacing * (np.arange(columns) + 0.5),
-        **{f"{name}_x": values[:, 0] for name, values in vectors.items()},
-        **{f"{name}_y": values[:, 1] for name, values in vectors.items()},
-        "slip": fields.slip,
-        "state": fields.state,
-    }
 
 
 def _attributes(name: str, unit: str, meaning: str) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from springblock.model.notebook import Shown, in_words
 from springblock.model.numbers import check_whole
 
 #: Largest number of blocks along a side, for which the solver is laid out.
@@ -25,6 +26,10 @@ class Level:
     size: int
     gap: int
     along: str | None = None  #: direction of its grooves, "x" or "y"; None for pillars
+
+    def __str__(self) -> str:
+        kind = f"grooves along {self.along}" if self.along else "pillars"
+        return f"{kind} {self.size}/{self.gap}"
 
 
 def _cut_surface(name: str, n: int, level: Level) -> Segments:
@@ -55,8 +60,8 @@ def _cut_segment(segment: tuple[int, int], level: Level) -> Segments:
     return [(s, level.size) for s in range(start, start + length, period)]
 
 
-@dataclass(frozen=True)
-class Pattern:
+@dataclass(frozen=True, repr=False)
+class Pattern(Shown):
     """Contact pattern of any number of levels on N x N blocks, or N_y rows of N_x blocks.
 
     Start from `flat` or `pillars` and add levels with `grooved` and `pillared`. The first level
@@ -139,6 +144,10 @@ class Pattern:
         contact = np.outer(along["y"], along["x"])
         contact.flags.writeable = False
         return contact
+
+    def __repr__(self) -> str:
+        levels = ", ".join(map(str, self.levels)) or "flat"
+        return f"<{levels}: {in_words(self.contact)}>"
 
     @property
     def origins(self) -> NDArray[np.intp]:

@@ -7,21 +7,22 @@ from numpy.typing import ArrayLike, NDArray
 
 from springblock.model.asperities import DRAWN, draw_friction
 from springblock.model.material import Material
+from springblock.model.notebook import Shown, in_words
 from springblock.model.numbers import Array, as_array
-from springblock.model.pattern import MAX_BLOCKS
+from springblock.model.pattern import MAX_BLOCKS, Pattern
 
 #: Least number of blocks per side with periodic edges: with fewer, a block would be its own
 #: neighbour, or a neighbour of another one twice.
 _SHORTEST_PERIOD = 3
 
 
-class Surface:
+class Surface(Shown):
     """Blocks in contact with the substrate, and their friction coefficients.
 
     Parameters
     ----------
-    contact : (N_y, N_x) bool, or 0 and 1, [y, x]
-        Blocks in contact with the substrate, as `Pattern.contact`. Masked entries are not.
+    contact : Pattern, or (N_y, N_x) bool, or 0 and 1, [y, x]
+        Blocks in contact with the substrate. Masked entries are not.
     mu_static, mu_dynamic : (N_y, N_x) float, or one number for all blocks
         Microscopic friction coefficients; values outside the contact are ignored. Those of blocks
         in contact must not be masked.
@@ -37,7 +38,7 @@ class Surface:
 
     def __init__(
         self,
-        contact: ArrayLike,
+        contact: Pattern | ArrayLike,
         mu_static: ArrayLike,
         mu_dynamic: ArrayLike,
         periodic: bool = False,
@@ -59,7 +60,7 @@ class Surface:
     @classmethod
     def draw(
         cls,
-        contact: ArrayLike,
+        contact: Pattern | ArrayLike,
         seed: int,
         material: Material | None = None,
         periodic: bool = False,
@@ -89,13 +90,18 @@ class Surface:
         """Largest coefficient at which a block detaches."""
         return float(np.maximum(self.mu_static, self.mu_dynamic).max())
 
+    def __repr__(self) -> str:
+        static, dynamic = (mu[self.contact].mean() for mu in (self.mu_static, self.mu_dynamic))
+        return f"<{in_words(self.contact)}, mean coefficients {static:.3f} and {dynamic:.3f}>"
 
-def as_mask(contact: ArrayLike) -> NDArray[np.bool_]:
+
+def as_mask(contact: Pattern | ArrayLike) -> NDArray[np.bool_]:
     """Return a copy of contact as bool, (N_y, N_x), converted from 0 and 1 if necessary.
 
     Masks of more than `MAX_BLOCKS` blocks a side, or without a block in contact, are refused.
     """
-    mask = np.array(as_array("contact", contact).filled(0))
+    given = contact.contact if isinstance(contact, Pattern) else contact
+    mask = np.array(as_array("contact", given).filled(0))
     if mask.dtype != np.bool_:
         if mask.dtype.kind not in "iu":
             raise TypeError(f"contact must be an array of bool, or of 0 and 1, not of {mask.dtype}")

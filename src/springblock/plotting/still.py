@@ -1,7 +1,9 @@
 """Pictures of one run and of one surface."""
 
 from collections.abc import Iterable, Sequence
+from functools import singledispatch
 from textwrap import fill
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -9,10 +11,14 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
+from springblock.analysis.runs import Runs
 from springblock.model.numbers import Array
+from springblock.model.pattern import Pattern
+from springblock.model.surface import Surface
 from springblock.plotting import maps, style
 from springblock.plotting.curves import draw_force, draw_run
 from springblock.plotting.style import COLUMN, DOUBLE, MICRO, MM, color_bar, journal
+from springblock.plotting.supplement import surfaces
 from springblock.simulation.fields import Fields
 from springblock.simulation.run import Run
 
@@ -41,13 +47,21 @@ _TEXT, _TALLEST, _LETTER = 34.0, 90.0, 1.4
 _ENLARGED = 24  #: blocks along a side of the part of a surface that is enlarged
 
 
-@journal
-def plot(run: Run) -> Figure:
-    """Draw force, detachments, the map of t_det and any snapshots of a run.
+@singledispatch
+def plot(shown: Any) -> Figure:
+    """Draw a run, runs of `ensemble`, fields, a pattern or a surface.
 
-    A matplotlib figure without pyplot: `plot(run).savefig("run.png")`. Notebooks show it after
-    `%matplotlib inline`.
+    Of a run: force, detachments, the map of t_det and any snapshots; of several: mask, mean t_det
+    and mean force; of fields: shear stress and slip; else the blocks in contact. A matplotlib
+    figure without pyplot: `plot(run).savefig("run.png")`.
     """
+    raise TypeError(f"plot draws runs, fields, patterns and surfaces, not {shown!r}")
+
+
+@plot.register
+@journal
+def plot_run(run: Run) -> Figure:
+    """Draw force, detachments, the map of t_det and any snapshots of a run."""
     heights = [_HEIGHT, _ROW] if len(run.snapshots) else [_HEIGHT]
     picture = Figure(figsize=(DOUBLE * MM, sum(heights) * MM), layout="constrained")
     picture.suptitle(run.name, fontsize="medium")
@@ -93,6 +107,7 @@ def _draw_maps(
     color_bar(panels[-1], image, label)
 
 
+@plot.register
 @journal
 def plot_fields(fields: Fields, name: str = "") -> Figure:
     """Draw maps of shear stress, above, and slip, below, at up to four of the times."""
@@ -111,15 +126,37 @@ def plot_fields(fields: Fields, name: str = "") -> Figure:
     return picture
 
 
+@plot.register
+def plot_pattern(pattern: Pattern) -> Figure:
+    """Draw the blocks in contact."""
+    return show(pattern.contact)
+
+
+@plot.register
+def plot_surface(surface: Surface) -> Figure:
+    """Draw the blocks in contact."""
+    return show(surface.contact)
+
+
+@plot.register
 @journal
-def show(contact: NDArray[np.bool_], direction: str | float, name: str = "") -> Figure:
+def plot_runs(runs: Runs) -> Figure:
+    """Draw mask, mean t_det/t_max and force of several runs of a surface."""
+    return surfaces({runs[0].name: runs})
+
+
+@journal
+def show(
+    contact: NDArray[np.bool_], direction: str | float | None = None, name: str = ""
+) -> Figure:
     """Draw a) a whole surface, (N_y, N_x), and b) single blocks of it."""
     picture, (whole, detail) = style.panels(DOUBLE, 105.0, "ab")
     share = f"{np.count_nonzero(contact)} of {contact.size} blocks in contact, {contact.mean():.1%}"
     title = "\n".join(filter(None, [name, share.replace("%", " %")]))
     picture.suptitle(title, fontsize="medium", linespacing=1.4)
     maps.draw_contact(whole, contact)
-    maps.draw_sliding(whole, direction)
+    if direction is not None:
+        maps.draw_sliding(whole, direction)
     corner = []  # of a window that shows the first contact with a margin, and lies inside
     for axis, size in enumerate(contact.shape):
         first = int(np.argmax(contact.any(axis=1 - axis)))

@@ -7,7 +7,6 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from springblock.analysis import statistics
-from springblock.io.records import Record
 from springblock.plotting import curves, maps, style
 from springblock.plotting.paper_results import Grooves, figure_9
 from springblock.plotting.style import BLACK, FORCE, GREY, MICRO
@@ -22,19 +21,23 @@ def supplement_levels(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
     return figure_9(ensembles)
 
 
-def surfaces(ensembles: Mapping[str, Sequence[Record]]) -> Figure:
-    """Draw mask, mean t_det/t_max and force of each surface, a row each.
+def surfaces(ensembles: Mapping[str, Sequence[Run]]) -> Figure:
+    """Draw mask, mean t_det/t_max and force of each surface, by name, a row each.
 
     A block that has not detached in one of the runs has no mean time.
     """
     size = (style.DOUBLE * style.MM, len(ensembles) * _ROW * style.MM)
     picture = Figure(figsize=size, layout="constrained")
     rows = picture.subplots(len(ensembles), 3, squeeze=False)
-    for (contact, times, force), runs in zip(rows, ensembles.values(), strict=True):
-        maps.draw_contact(contact, runs[0].scene.contact)
-        contact.set_title(fill(str(runs[0].scene), _LINE), loc="left", fontsize="medium")
+    for (contact, times, force), (name, runs) in zip(rows, ensembles.items(), strict=True):
+        maps.draw_contact(contact, runs[0].contact)
+        title = str(getattr(runs[0], "scene", name))
+        contact.set_title(fill(title, _LINE), loc="left", fontsize="medium")
         mean = np.mean([run.t_det / run.t_max for run in runs], axis=0)
-        maps.draw_mean_times(times, mean, r"mean $t_\mathrm{det}/t_\mathrm{max}$")
+        if np.isfinite(mean).any():
+            maps.draw_mean_times(times, mean, r"mean $t_\mathrm{det}/t_\mathrm{max}$")
+        else:
+            times.set_axis_off()
         curve = statistics.whole_curve(runs)
         curves.draw_single_forces(force, curve, GREY)
         curves.draw_mean_force(force, curve, BLACK, "mean")

@@ -1,12 +1,36 @@
 """Fields of all blocks at chosen times of a run."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from springblock.model.notebook import Shown, in_words
 from springblock.model.numbers import Array
+
+if TYPE_CHECKING:
+    import xarray
+
+DIMENSIONS = ("time", "y", "x")  #: of a field
+
+#: Units and meaning of each variable. Coordinates have no attribute `axis`: ParaView would take X
+#: and Y for longitude and latitude.
+VARIABLES = {
+    "time": ("s", "time since the slider began to move"),
+    "y": ("m", "position of the block centre along y, free of strain"),
+    "x": ("m", "position of the block centre along x, free of strain"),
+    "displacement_x": ("m", "displacement along x"),
+    "displacement_y": ("m", "displacement along y"),
+    "velocity_x": ("m s-1", "velocity along x"),
+    "velocity_y": ("m s-1", "velocity along y"),
+    "slip": ("m", "distance from the initial position on the substrate"),
+    "stress_x": ("Pa", "shear stress on the substrate along x"),
+    "stress_y": ("Pa", "shear stress on the substrate along y"),
+    "state": ("1", "state of the block"),
+}
 
 
 class BlockState(IntEnum):
@@ -18,7 +42,7 @@ class BlockState(IntEnum):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Fields:
+class Fields(Shown):
     """Fields of a run in SI units; vectors are (k, 2, N_y, N_x), [time, component, y, x]."""
 
     time: Array  #: (k,) s
@@ -49,6 +73,54 @@ class Fields:
         moving = self.velocity.any(axis=1)
         in_contact = np.where(moving, BlockState.SLIDING, BlockState.STUCK)
         return np.where(self.contact, in_contact, BlockState.FREE).astype(np.int8)
+
+    def variables(self) -> dict[str, NDArray[Any]]:
+        """Return the values of each of `VARIABLES`."""
+        rows, columns = self.contact.shape
+        in_contact = np.where(self.contact, 0.0, np.nan)
+        vectors = {
+            "displacement": self.displacement,
+            "velocity": self.velocity,
+            "stress": self.stress + in_contact,
+        }
+        return {
+            "time": self.time,
+            "y": self.spacing * (np.arange(rows) + 0.5),
+            "x": self.spacing * (np.arange(columns) + 0.5),
+            **{f"{name}_x": values[:, 0] for name, values in vectors.items()},
+            **{f"{name}_y": values[:, 1] for name, values in vectors.items()},
+            "slip": self.slip,
+            "state": self.state,
+        }
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """Return all fields with coordinates and units, as in the file of `write_fields`."""
+        return dataset(
+            [
+                ((name,) if name in DIMENSIONS else DIMENSIONS, name, values, *VARIABLES[name])
+                for name, values in self.variables().items()
+            ]
+        )
+
+    def __repr__(self) -> str:
+        return f"<fields at {len(self.time)} times: {in_words(self.contact)}>"
+
+
+def dataset(variables: Sequence[tuple[Sequence[str], str, Any, str, str]]) -> "xarray.Dataset":
+    """Return variables as xarray's `Dataset`: dimensions, name, values, unit and meaning of each.
+
+    Those that have the name of a dimension are coordinates.
+    """
+    try:
+        import xarray
+    except ModuleNotFoundError:
+        raise ModuleNotFoundError("to_xarray needs xarray: pip install xarray") from None
+    return xarray.Dataset(
+        {
+            name: (dimensions, values, {"units": unit, "long_name": meaning})
+            for dimensions, name, values, unit, meaning in variables
+        }
+    )
 
 
 def _magnitude(vectors: Array) -> Array:

@@ -21,6 +21,7 @@ from springblock.files import MENDING, read_arrays, whole_file
 from springblock.model.asperities import log_share_above
 from springblock.model.direction import heading
 from springblock.model.numbers import Array
+from springblock.model.pattern import Pattern
 from springblock.model.surface import Surface, as_coefficients, as_mask
 from springblock.simulation.motion import Motion, SimulationError
 from springblock.simulation.setup import DEFAULT, Setup, check_type
@@ -127,7 +128,7 @@ def conditions(
 
 
 def compute_prelude(
-    contact: ArrayLike,
+    contact: Pattern | ArrayLike,
     setup: Setup = DEFAULT,
     direction: str | float = "x",
     periodic: bool = False,

@@ -2,13 +2,18 @@
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from springblock.model.notebook import Shown
 from springblock.model.numbers import Array
 from springblock.simulation.energy import Energy
-from springblock.simulation.fields import Fields
+from springblock.simulation.fields import Fields, dataset
+
+if TYPE_CHECKING:
+    import xarray
 
 Counts = NDArray[np.integer]
 
@@ -17,7 +22,7 @@ _REBOUND = 0.1
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Run:
+class Run(Shown):
     """One run in SI units, computed or read back from a file. Fields are indexed [y, x]."""
 
     time: Array  #: (n,) s, multiples of the sample interval, from zero
@@ -70,6 +75,19 @@ class Run:
         detached = self.t_det[np.isfinite(self.t_det)]
         return float(detached.min()) if detached.size else math.nan
 
+    def to_xarray(self) -> "xarray.Dataset":
+        """Return force and detachments in time, and the map of first detachments, with units."""
+        return dataset(
+            [
+                (["time"], "time", self.time, "s", "time since the slider began to move"),
+                (["time"], "force", self.force, "N", "friction force"),
+                (["time"], "detachments", self.detachments, "1", "first detachments"),
+                (["time"], "switches", self.switches, "1", "switches to sliding"),
+                (["y", "x"], "t_det", self.t_det, "s", "time of the first detachment"),
+                (["y", "x"], "contact", self.contact, "1", "in contact with the substrate"),
+            ]
+        )
+
     def __repr__(self) -> str:
         times = f"t_max {1e6 * self.t_max:.1f} µs, " + (
             "nothing has detached" if math.isnan(self.t_avg) else f"t_avg {1e6 * self.t_avg:.1f} µs"
@@ -98,7 +116,7 @@ def percent(run: Run, blocks: Counts) -> Array:
 
     These are all contact blocks, if the run lasts until all of them have detached.
     """
-    return 100.0 * blocks / np.count_nonzero(np.isfinite(run.t_det))
+    return 100.0 * blocks / max(1, int(np.isfinite(run.t_det).sum()))
 
 
 def first_minimum(force: Array) -> int | None:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from tqdm import tqdm
@@ -27,6 +28,7 @@ _SAMPLES_PER_CALL = 10
 _WITHOUT_DROP = 1.5
 #: A run with stuck blocks fails at this multiple of its longest loading time, F_c/(K_s v).
 _LATEST = 3.0
+_SOON = 10.0  #: s after which a run shows its progress on a terminal
 
 
 def simulate(
@@ -37,7 +39,7 @@ def simulate(
     snapshot_times: Sequence[float] = (),
     prelude: Prelude | None = None,
     cores: int = 1,
-    progress: bool = False,
+    progress: bool | None = None,
     checkpoint: str | Path | None = None,
     checkpoint_interval: float = 300.0,
 ) -> Realisation:
@@ -67,8 +69,8 @@ def simulate(
         time; results are the same, but for the rounding of forces under a law from a file.
     cores : int
         Number of cores for the leapfrog on one large surface; results are the same to the bit.
-    progress : bool
-        Whether to show a progress bar on stderr.
+    progress : bool, or None
+        Whether to show a progress bar on stderr. None: on a terminal, in runs of more than 10 s.
     checkpoint : Path
         File for the state of the unfinished run. If it exists, the run continues from it, with the
         same result to the bit; it is removed at the end.
@@ -109,7 +111,10 @@ def simulate(
             )
         if not motion.samples:
             prelude.start(motion, min([*at_samples, math.inf if end is None else end]) - 1)
-    with tqdm(total=end, initial=motion.samples, unit=" samples", disable=not progress) as bar:
+    hidden = None if progress is None else not progress  # None: unless stderr is a terminal
+    shown: dict[str, Any] = {"disable": hidden, "delay": 0.0 if progress else _SOON}
+    until = end or max(at_samples, default=None)
+    with tqdm(total=until, initial=motion.samples, unit=" samples", **shown) as bar:
         while len(snapshots) < len(at_samples) or not _is_over(motion, end, latest):
             pause = (motion.samples // _SAMPLES_PER_CALL + 1) * _SAMPLES_PER_CALL
             pause = pause if end is None else min(pause, end)
