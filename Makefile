@@ -2,6 +2,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 PEERS := benchmarks/peers/peers.lock
+SITE := docs/site.lock
 PARALLEL := --numprocesses auto --dist loadfile --no-loadscope-reorder
 INSTALL := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-user --no-compile --no-build-isolation
 APT_INSTALL := DEBIAN_FRONTEND=noninteractive apt-get install --yes --quiet --no-install-recommends
@@ -9,7 +10,7 @@ APT_INSTALL := DEBIAN_FRONTEND=noninteractive apt-get install --yes --quiet --no
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick full docs test browser test-slurm test-versions coverage soak mutants bench bench-ratios setup lock clean
+.PHONY: all quick full docs site test browser test-slurm test-versions coverage soak mutants bench bench-ratios setup lock clean
 
 # The paper's figures and their errors, in seven minutes on two cores.
 all: setup
@@ -34,6 +35,14 @@ docs: full
 	mv results/README.md README.md
 	$(BIN)/springblock simulate --n-blocks 120 --n-p 20 --n-s 20 --output results/front.parquet
 	$(BIN)/springblock animate results/front.parquet --output docs/front.gif
+
+# The documentation as a site, in build/site: pages where they are in the repository, with the reference of
+# Python and of the commands. Links are checked.
+site: setup
+	$(INSTALL) --require-hashes -r $(SITE)
+	rm -rf build/pages build/site && mkdir -p build/pages
+	tar -c README.md CHANGELOG.md CONTRIBUTING.md LICENSE config docs benchmarks/verification | tar -x -C build/pages
+	$(BIN)/mkdocs build --strict --quiet
 
 # Style, types and tests.
 test: setup $(if $(CI),browser)
@@ -120,7 +129,7 @@ $(VENV)/installed: $(VENV)/locked pyproject.toml
 	$(INSTALL) --no-deps --editable .
 	touch $@
 
-# Renews both lock files, for every platform and every Python from 3.11 on, and prints known
+# Renews the lock files, for every platform and every Python from 3.11 on, and prints known
 # vulnerabilities of the packages that they pin.
 lock:
 	@dir=$$(mktemp -d) && trap 'rm -rf "$$dir"' EXIT && \
@@ -130,7 +139,9 @@ lock:
 	$$lock --custom-compile-command "make lock" --output-file environment.lock \
 	    --group dev --extra study --extra slurm --extra mp4 --extra topography pyproject.toml && \
 	$$lock --custom-compile-command "make lock" --output-file $(PEERS) --group peers && \
-	"$$dir/bin/pip-audit" --strict --disable-pip --require-hashes -r environment.lock -r $(PEERS)
+	$$lock --custom-compile-command "make lock" --output-file $(SITE) --group site \
+	    --constraint environment.lock && \
+	"$$dir/bin/pip-audit" --strict --disable-pip --require-hashes -r environment.lock -r $(PEERS) -r $(SITE)
 
 # Removes the environment and caches; results stay.
 clean:

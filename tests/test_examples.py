@@ -1,6 +1,6 @@
 """What the README, the pages and the notebook show runs as it stands there, with these answers.
 
-`python tests/test_examples.py` runs the notebook and keeps what it shows. Jupyter is not needed for
+`python tests/test_examples.py` runs the notebook and the gallery and keeps what they show. Jupyter is not needed for
 that: what a cell shows is what it prints and its last expression.
 """
 
@@ -165,6 +165,18 @@ def test_the_page_on_a_measured_surface_can_be_followed(study):
     assert (study / "measured.png").exists()
 
 
+def test_the_gallery_can_be_followed_and_makes_its_pictures(study):
+    """Each scene alone: none needs a name of another one."""
+    page = (ROOT / "docs/gallery.md").read_text(encoding="utf-8")
+    boxes = [box for _, box in BOX.findall(page)]
+    assert len(boxes) == 10
+    for box in boxes:
+        assert box.count("\n") <= 9
+        exec(box, {})
+    made = {f"gallery/{file.name}" for file in study.folder.glob("*.png")}
+    assert made == set(re.findall(r"!\[.*?\]\((.*?)\)", page))
+
+
 def run_cell(source, names):
     """Run one cell, but for Jupyter's own commands; returns what Jupyter would show of it."""
     tree, printed = ast.parse(re.sub(r"^%.*$", "", source, flags=re.MULTILINE)), io.StringIO()
@@ -220,3 +232,6 @@ if __name__ == "__main__":
     os.chdir("/")  # where no study is
     run_notebook(page)
     nbformat.write(page, NOTEBOOK)
+    os.chdir(ROOT / "docs/gallery")
+    for _, scene in BOX.findall((ROOT / "docs/gallery.md").read_text(encoding="utf-8")):
+        exec(scene, {})

@@ -115,8 +115,7 @@ def panels(
     order of their letters, with "a)" above each if there are several. `placing` are further
     arguments of `Figure.subplot_mosaic`.
     """
-    layout = ConstrainedLayoutEngine(w_pad=2.0 * MM)  # labels of neighbours do not touch
-    picture = Figure(figsize=(width * MM, height * MM), layout=layout)
+    picture = page(width, height)
     blocks = [[list(row) for row in block.split(";")] for block in letters.split("|")]
     mosaic: Any = [[block] for block in blocks] if len(blocks) > 1 else blocks[0]
     placed = picture.subplot_mosaic(mosaic, **placing)
@@ -124,6 +123,12 @@ def panels(
         if len(placed) > 1:
             ax.set_title(f"{letter})", loc="left", fontweight="bold")
     return picture, [placed[letter] for letter in sorted(placed)]
+
+
+def page(width: float, height: float) -> Figure:
+    """Make an empty figure of `width` x `height` mm, whose panels keep their labels apart."""
+    layout = ConstrainedLayoutEngine(w_pad=2.0 * MM)
+    return Figure(figsize=(width * MM, height * MM), layout=layout)
 
 
 def legend_above(picture: Figure, *panels: Axes, **look: Any) -> None:

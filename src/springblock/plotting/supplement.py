@@ -26,8 +26,7 @@ def surfaces(ensembles: Mapping[str, Sequence[Run]]) -> Figure:
 
     A block that has not detached in one of the runs has no mean time.
     """
-    size = (style.DOUBLE * style.MM, len(ensembles) * _ROW * style.MM)
-    picture = Figure(figsize=size, layout="constrained")
+    picture = style.page(style.DOUBLE, len(ensembles) * _ROW)
     rows = picture.subplots(len(ensembles), 3, squeeze=False)
     for (contact, times, force), (name, runs) in zip(rows, ensembles.items(), strict=True):
         maps.draw_contact(contact, runs[0].contact)
