@@ -78,13 +78,6 @@ def test_pages_of_the_report_link_to_each_other():
     assert body.count("href") == 2  # pages that the report lacks lead nowhere
 
 
-def test_a_page_tells_what_opens_it():
-    page = markup.rendered("a", "# T\n\none\n\n1. two\n\n## Q?\n\n### R\n\nyes\n\nso\n")
-    one, two = page.opening
-    assert one == "<p>one</p>\n"
-    assert two.startswith("<ol>")
-
-
 def test_symbols_are_set_and_nothing_but_symbols():
     assert typeset("t_max < l_c") == "<var>t<sub>max</sub></var> &lt; <var>l<sub>c</sub></var>"
     assert typeset("n_p2/n_s2") == "<var>n<sub>p2</sub></var>/<var>n<sub>s2</sub></var>"

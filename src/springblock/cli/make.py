@@ -15,14 +15,17 @@ from springblock.mechanism.surfaces import TABLES
 MEASURED = ["stability", "reference"]
 MEASURED += [f"{kind}-{scene}" for kind in (*COMPARISONS, "production") for scene in SCENES]
 MEASURED += [f"mechanism-{part}" for parts in TABLES.values() for part in parts]
-_ACCURACY = ("work_precision", "stability", "realisations", "production")
+#: Modules that compute the values of pages, and the tables that these follow from.
+PAGES = {
+    "accuracy": ("accuracy.page", ("work_precision", "stability", "realisations", "production")),
+    "claims": ("claims.summary", ("claims",)),
+    "findings": ("report.findings", ("claims", "realisations")),
+}
 #: Inputs of each name: description, smallest and largest number.
 INPUTS = {
     **dict.fromkeys(MEASURED, ("no inputs", 0, 0)),
     "collect": ("tables of equal columns", 1, None),
-    "accuracy": (f"the tables {', '.join(_ACCURACY)}", len(_ACCURACY), len(_ACCURACY)),
-    "claims": ("the table claims", 1, 1),
-    "findings": ("the tables claims and realisations", 2, 2),
+    **{name: (f"the tables {', '.join(of)}", len(of), len(of)) for name, (_, of) in PAGES.items()},
     "mechanism": (f"the tables {', '.join(TABLES)}", len(TABLES), len(TABLES)),
     "beyond": ("batches of realisations", 1, None),
 }
@@ -113,26 +116,13 @@ def _collect(tables: tuple[Path, ...], configuration: str | None, output: Path) 
 
 def _page(name: str, files: tuple[Path, ...]) -> str:
     """Return the text of a page."""
-    if name == "claims":
-        from springblock.claims import summary
+    if name in PAGES:
         from springblock.pages import rendered  # needs the packages of the study
 
-        return rendered("claims.md", **summary.values(load_as("claims", files[0]).to_pylist()))
-    if name == "findings":
-        from springblock.pages import rendered
-        from springblock.report import findings
-
-        tables = [
-            load_as(kind, file).to_pylist()
-            for kind, file in zip(("claims", "realisations"), files, strict=True)
-        ]
-        return rendered("findings.md", **findings.values(*tables))
-    if name == "accuracy":
-        from springblock.accuracy.page import values
-        from springblock.pages import rendered
-
-        tables = [load_as(kind, file) for kind, file in zip(_ACCURACY, files, strict=True)]
-        return rendered("accuracy.md", **values(*(table.to_pylist() for table in tables)))
+        place, kinds = PAGES[name]
+        values = resolve_name(f"springblock.{place}:values")
+        rows = (load_as(kind, file).to_pylist() for kind, file in zip(kinds, files, strict=True))
+        return rendered(f"{name}.md", **values(*rows))
     page = resolve_name(f"springblock.{name}.page:page")
     if name == "beyond":
         return page(by_scene(read_records(files)))

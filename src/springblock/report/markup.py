@@ -1,7 +1,7 @@
 """Text, pages in Markdown and tables, as HTML or ready for it."""
 
 import re
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -28,11 +28,10 @@ _MANY = 20  #: chapters from which on the numbered ones are folded
 
 
 class Page(NamedTuple):
-    """A page as HTML, with its title and what opens it."""
+    """A page as HTML, with its title."""
 
     title: str
     body: Markup = Markup()
-    opening: Sequence[Markup] = ()
 
 
 def typeset(text: str) -> Markup:
@@ -79,17 +78,7 @@ def rendered(name: str, markdown: str, pages: Collection[str] = ()) -> Page:
         if len(chapters) > _MANY and chapter[1].content[:1].isdigit():
             heading, rest = _FOLDED.format(heading), rest + _END
         body += heading + rest
-    return Page(title, body, [html(block) for block in _blocks(opening)])
-
-
-def _blocks(tokens: Sequence[Token]) -> Iterator[Sequence[Token]]:
-    """Yield the paragraphs and lists at the level of chapters."""
-    first = 0
-    for i, token in enumerate(tokens):
-        if not token.level and token.nesting == 1:
-            first = i
-        if not token.level and token.type in ("paragraph_close", "ordered_list_close"):
-            yield tokens[first : i + 1]
+    return Page(title, body)
 
 
 def _formula(found: re.Match[str]) -> str:
