@@ -25,7 +25,8 @@ def on_islands(number: int) -> list[Record]:
     made = [record(seed, (110e-6,)) for seed in range(number)]
     columns = np.linspace(0.8, 1.2, 9)
     times = [np.where(ISLANDS, run.t_max * (columns + 0.01 * run.seed), np.nan) for run in made]
-    return [replace(run, scene=scene, t_det=t) for run, t in zip(made, times, strict=True)]
+    own = {"scene": scene, "contact": ISLANDS}
+    return [replace(run, **own, t_det=t) for run, t in zip(made, times, strict=True)]
 
 
 def draw_surfaces(number: int = 3) -> Figure:
