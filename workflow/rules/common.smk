@@ -134,11 +134,11 @@ def minutes(wildcards, attempt):
     return attempt * cost.minutes(*work(wildcards))
 
 
-def seconds(rule, wildcards):
-    """CPU time in s that a job of this rule is expected to take."""
-    if rule in ("prelude", "simulate_batch"):
+def seconds(name, wildcards):
+    """CPU time in s that a job of this name is expected to take."""
+    if name in ("prelude", "simulate_batch"):
         return cost.expected(*work(wildcards))
-    return cost.expected_of(rule)
+    return cost.expected_of(name)
 
 
 if workflow.is_main_process:
