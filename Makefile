@@ -28,7 +28,8 @@ full: setup
 FINDINGS := src/springblock/report/findings.md
 docs: full
 	$(BIN)/springblock dictionary --output docs/tables.md
-	cp results/accuracy.md results/claims.md results/mechanism.md results/beyond.md results/figures/figure_6.png docs
+	cp results/accuracy.md results/claims.md results/mechanism.md results/continuum.md results/beyond.md docs
+	cp results/figures/figure_6.png results/figures/continuum_friction.png docs
 	$(BIN)/python -m springblock.claims.full_study results/tables/claims.parquet
 	$(BIN)/springblock make findings results/tables/claims.parquet results/tables/realisations.parquet --output $(FINDINGS)
 	sed -e '/^<!-- findings/,/^<!-- end/{/^<!--/!d;}' -e '/^<!-- findings/r $(FINDINGS)' README.md > results/README.md

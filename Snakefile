@@ -25,6 +25,7 @@ include: "workflow/rules/simulate.smk"
 include: "workflow/rules/correlation.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/mechanism.smk"
+include: "workflow/rules/continuum.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/report.smk"
@@ -55,6 +56,7 @@ rule all:
         MODEL_PARTS,
         MODELS,
         rules.mechanism.output if config["mechanism"] == "all" else [],
+        CONTINUUM,
         rules.beyond.output if GROUPS_BEYOND else [],
     localrule: True
     message:

@@ -174,7 +174,7 @@ def jobs():
             if command:
                 steps = re.findall(r'code=code\("([\w.]+)"\)', rule)
                 found.setdefault(command[1], set()).update(steps)
-    found["make"].add("mechanism")  # by `use rule`
+    found["make"] |= {"continuum", "mechanism"}  # by `use rule`
     found["aggregate"].add("accuracy")  # only to warn
     del found["compile"]  # whose file is empty
     return found

@@ -9,7 +9,7 @@ from pathlib import Path
 import pyarrow.parquet as pq
 import pytest
 
-from springblock import Material
+from springblock import Material, continuum
 from springblock.accuracy import conventions
 from springblock.io.identity import read_record
 from springblock.io.schemas import BATCH
@@ -187,7 +187,8 @@ def test_the_record_names_all_parts_of_the_pages(study, tmp_path):
     assert {"accuracy", "mechanism", "tables", "figures", "films"} <= parts
     assert {f"accuracy/production-{scene}.parquet" for scene in conventions.SCENES} <= {*files}
     assert {f"mechanism/{part}.parquet" for each in TABLES.values() for part in each} <= {*files}
-    assert {"accuracy.md", "mechanism.md", "tables/stability.parquet"} <= {*files}
+    assert {f"continuum/{part}.parquet" for part in continuum.PARTS} <= {*files}
+    assert {"accuracy.md", "mechanism.md", "continuum.md", "tables/stability.parquet"} <= {*files}
 
 
 def test_repair_compares_with_the_recorded_configuration(study, tmp_path):

@@ -19,6 +19,7 @@ FIGURES = {
     and (figure.category != "Figures" or not OWN)
     and (figure.category != "Accuracy" or config["accuracy"])
     and (figure.category != "Mechanism" or config["mechanism"])
+    and (figure.category != "Continuum" or config["mechanism"] == "all")
 }
 #: Default sweeps of a study with `study: own`: friction against each parameter that varies.
 SWEPT = {

@@ -20,10 +20,11 @@ rule mechanism_part:
         runtime=15,
     params:
         code=code("mechanism"),
+        table="mechanism",
     message:
         "Comparing simpler models with the simulation: {wildcards.part}"
     shell:
-        "springblock --code {params.code} make mechanism-{wildcards.part} --output {output:q} "
+        "springblock --code {params.code} make {params.table}-{wildcards.part} --output {output:q} "
         "> {log:q} 2>&1"
 
 

@@ -47,6 +47,7 @@ rule report:
             else []
         ),
         mechanism=[MODELS, rules.mechanism.output if config["mechanism"] == "all" else []],
+        continuum=CONTINUUM[-2:],
         beyond=rules.beyond.output if GROUPS_BEYOND else [],
         glossary=[] if OWN or not Path(GLOSSARY).exists() else GLOSSARY,
         films=FILMED,

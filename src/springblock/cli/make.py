@@ -1,4 +1,4 @@
-"""springblock make and report: tables of accuracy and mechanism, joined tables, and pages."""
+"""springblock make and report: tables of accuracy, mechanism and continuum, and pages."""
 
 from pathlib import Path
 from pkgutil import resolve_name
@@ -7,6 +7,7 @@ import click
 
 from springblock.accuracy.conventions import COMPARISONS, SCENES
 from springblock.cli.options import INPUT, Output, check_type, code_version, load_as
+from springblock.continuum import PARTS
 from springblock.files import write_text
 from springblock.io.parquet import load, origin_of, read, rows_to_table, write
 from springblock.io.records import by_scene, read_records
@@ -15,10 +16,12 @@ from springblock.mechanism.surfaces import TABLES
 MEASURED = ["stability", "reference"]
 MEASURED += [f"{kind}-{scene}" for kind in (*COMPARISONS, "production") for scene in SCENES]
 MEASURED += [f"mechanism-{part}" for parts in TABLES.values() for part in parts]
+MEASURED += [f"continuum-{part}" for part in PARTS]
 #: Modules that compute the values of pages, and the tables that these follow from.
 PAGES = {
     "accuracy": ("accuracy.page", ("work_precision", "stability", "realisations", "production")),
     "claims": ("claims.summary", ("claims",)),
+    "continuum": ("continuum.page", ("continuum",)),
     "findings": ("report.findings", ("claims", "realisations")),
 }
 #: Inputs of each name: description, smallest and largest number.
@@ -57,6 +60,7 @@ def make(
       reference          solutions of the small runs, compared with those of the package
       reference-SCENE    errors of single runs (likewise paired-SCENE: of small ensembles)
       production-SCENE   errors of ensembles with N = 120
+      continuum-PART     unit cells beside their theory
       mechanism-N_P      simpler models on pillars (likewise on other surfaces)
     From INPUTS:
       collect            one table, from tables of equal columns made by the same code
@@ -65,6 +69,7 @@ def make(
       claims             page on the paper's statements, from their table
       findings           findings of the full study, from the tables claims and realisations
       mechanism          page on static friction, from its tables
+      continuum          page on the continuum limit, from its table
       beyond             page on questions beyond the paper, from batches
     """
     wanted, least, most = INPUTS[name]
@@ -82,6 +87,7 @@ def make(
 def _measure(name: str, seeds: int, finest_step: float, output: Path) -> None:
     """Write a table without inputs."""
     from springblock.accuracy import production, solutions, stability, work_precision
+    from springblock.continuum import cases
     from springblock.mechanism.tables import FRICTION, measure
 
     kind, _, scene = name.partition("-")
@@ -97,6 +103,8 @@ def _measure(name: str, seeds: int, finest_step: float, output: Path) -> None:
         rows = list(production.production_rows(scene, seeds, finest_step))
     elif kind == "mechanism":
         step, schema, rows = "mechanism", FRICTION, list(measure(scene))
+    elif kind == "continuum":
+        step, schema, rows = "continuum", cases.CELLS, list(cases.measure(scene))
     else:
         rows = list(work_precision.ROWS[kind](scene))
     metadata["code_version"] = code_version(step)

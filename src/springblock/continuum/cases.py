@@ -98,7 +98,7 @@ class Series:
         """Return periodic cells with pillars or stripes of n blocks; stripes run along y."""
         period = n + round(self.gap * n)
         inside = np.arange(period * self.pillars) % period < n
-        contact = np.outer(inside if self.is_square else [True], inside)
+        contact = np.outer(inside if self.is_square else 3 * [True], inside)
         return Surface.draw(contact, seed, self.material, periodic=True)
 
 
@@ -139,6 +139,10 @@ def _lattices() -> Iterator[Series]:
     for spacing in (5e-6, 2.5e-6, 1.25e-6):
         fine = replace(PLAIN, spacing=spacing)
         yield Series("square", "lattice", fine, widths=(4, 6, 10), predicted=spacing > 2e-6)
+    for spacing in (1e-5, 5e-6, 2.5e-6):
+        coulomb = replace(PLAIN, law="coulomb", slip_distance=0.0, healing="instant")
+        coulomb = replace(coulomb, spacing=spacing)
+        yield Series("square", "Coulomb", coulomb, widths=(4, 8, 16), predicted=False)
     for spacing, d_c in product((5e-6, 2.5e-6, 1.25e-6, 6.25e-7), (2e-8, 3e-8, 5e-8, 1e-7)):
         zone = replace(PLAIN, spacing=spacing, slip_distance=d_c)
         yield Series("across", "lattice", zone, widths=(4.0825, 6.532, 9.798))
@@ -204,10 +208,22 @@ def measure(part: str) -> Iterator[Row]:
 
 
 def _row(series: Series, n: int, seed: int, predicted: float) -> Row:
-    setup, groups = series.setup(), series.groups
-    run = simulate(series.surface(n, seed), setup, "y" if series.shape == "along" else "x")
+    along = "y" if series.shape == "along" else "x"
+    run = simulate(series.surface(n, seed), series.setup(), along)
     last = int(np.argmax(run.force)) + 1
-    return setup.constants | {
+    return known(series, n) | {
+        "seed": seed,
+        "predicted": predicted,
+        "simulated": run.static_friction,
+        "switches": run.switches[:last].sum() / max(run.detachments[:last].sum(), 1),
+        "prominence": prominence(friction(run)),
+    }
+
+
+def known(series: Series, n: int) -> Row:
+    """Return the columns of a cell with pillars of n blocks that are known before its run."""
+    groups = series.groups
+    return series.setup().constants | {
         "shape": series.shape,
         "what": series.what,
         "width": n * series.material.spacing,
@@ -215,11 +231,6 @@ def _row(series: Series, n: int, seed: int, predicted: float) -> Row:
         "kappa": groups.kappa,
         "decay": groups.decay,
         "process_zone": groups.process_zone,
-        "seed": seed,
-        "predicted": predicted,
-        "simulated": run.static_friction,
-        "switches": run.switches[:last].sum() / max(run.detachments[:last].sum(), 1),
-        "prominence": prominence(friction(run)),
     }
 
 

@@ -36,6 +36,7 @@ from scipy.sparse.linalg import spsolve
 
 from springblock.model.material import Material
 from springblock.model.numbers import Array
+from springblock.simulation import resolution
 
 #: M/(k l_z²) along the sliding direction and across it, of a layer with the paper's K_s, nu = 1/3.
 STIFFNESS = {"x": 1.5, "y": 0.5}
@@ -57,12 +58,10 @@ class Groups:
     @classmethod
     def of(cls, material: Material, along: str, fraction: float) -> "Groups":
         """Return the groups of pillars with this contact fraction; `along` as in `STIFFNESS`."""
-        drop = (material.mu_static - material.mu_dynamic) * material.pressure / fraction
-        stiffness = material.k_s / material.spacing**2
         return cls(
             math.sqrt(STIFFNESS[along]) * material.thickness,
             material.mu_dynamic / (material.mu_static - material.mu_dynamic),
-            stiffness * material.slip_distance / drop,
+            resolution.kappa(material, fraction),
             material,
         )
 
@@ -74,9 +73,7 @@ class Groups:
     @property
     def process_zone(self) -> float:
         """Length of the weakening zone at p = 0, m; without bound from kappa = 1 on."""
-        if self.kappa >= 1.0:
-            return math.inf
-        return math.pi / 2.0 * self.decay / math.sqrt(1.0 / self.kappa - 1.0)
+        return resolution.process_zone(self.decay, self.kappa)
 
 
 class Peak(NamedTuple):

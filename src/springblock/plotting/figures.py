@@ -183,6 +183,19 @@ FIGURES: dict[str, Declaration] = {
         marks=f"""e) Exact values. f) Symbols: means; bars:
         {INTERVALS.replace("realisations", "seeds")}.""",
     ),
+    "continuum_friction": Declaration(
+        title="Friction of a layer with a fracture energy",
+        module="continuum",
+        caption="""Static friction of unit cells with gaps as wide as the pillars, under slip
+        weakening without healing. a) Stripes across and along the sliding direction, against their
+        width over the decay length of the layer; b) square pillars, against their width over the
+        layer thickness. Layers are 5, 10 and 20 µm thick; colours are kappa, d_c over the slip at
+        which the springs of the layer bear the drop of friction.""",
+        draws="tables",
+        tables=("continuum",),
+        marks="""Lines: theory, without a fit; symbols: simulation, open where the layer is not 10
+        µm thick.""",
+    ),
     "beyond_lattice": Declaration(
         title="Lattice or layer",
         module="beyond",

@@ -47,6 +47,7 @@ def kinds() -> dict[str, tuple[str, pa.Schema]]:
     """Return what a row is and the columns, by name of the table."""
     from springblock.accuracy import production, stability, work_precision
     from springblock.claims import table as claims
+    from springblock.continuum import cases as continuum
     from springblock.mechanism import tables as mechanism
 
     return {
@@ -62,6 +63,7 @@ def kinds() -> dict[str, tuple[str, pa.Schema]]:
             "a seed on a flat surface, or on pillars with other gaps or constants",
             mechanism.FRICTION,
         ),
+        "continuum": ("a unit cell of one stripe or pillar", continuum.CELLS),
         "stability": ("a stiff or extreme case", stability.SCHEMA),
     }
 

@@ -11,6 +11,7 @@ from tqdm import tqdm
 from springblock.model.direction import heading
 from springblock.model.numbers import Array
 from springblock.model.surface import Surface
+from springblock.simulation import resolution
 from springblock.simulation.checkpoint import Checkpoint, belonging
 from springblock.simulation.energy import Energy, elastic_energy
 from springblock.simulation.fields import Fields
@@ -126,6 +127,7 @@ def simulate(
             if kept is not None and kept.is_due:
                 kept.save(motion, snapshots)
     run = _result(motion, snapshots, at_samples)
+    resolution.warn(surface, setup.material, run)
     if kept is not None:
         kept.path.unlink(missing_ok=True)
     return run

@@ -18,11 +18,12 @@ from springblock.simulation.prelude import Prelude
 #: Folders in which a study writes, and the steps that make their files.
 _FOLDERS = dict.fromkeys(("realisations", "preludes", "fields"), "simulate")
 _FOLDERS |= {"surfaces": "mask", "correlations": "analyse", "accuracy": "accuracy"}
-_FOLDERS |= {"mechanism": "mechanism", "tables": "", "figures": "", "films": ""}
+_FOLDERS |= {"mechanism": "mechanism", "continuum": "continuum"}
+_FOLDERS |= dict.fromkeys(("tables", "figures", "films"), "")
 #: Steps that make tables, by the first word of their names.
 _TABLES = {"realisations": "simulate", "correlation": "analyse", "work": "accuracy"}
 _TABLES |= {"production": "accuracy", "stability": "accuracy"}
-_TABLES |= {"mechanism": "mechanism", "claims": "claims"}
+_TABLES |= {"mechanism": "mechanism", "continuum": "continuum", "claims": "claims"}
 #: Name of a file that was being written when its job was killed, see `files.whole_file`.
 _PARTIAL = re.compile(r"\..+\.[0-9a-f]{32}")
 

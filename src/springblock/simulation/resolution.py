@@ -1,0 +1,58 @@
+"""Whether a lattice resolves slip weakening, and whether blocks slip only once before the peak."""
+
+import logging
+import math
+from functools import cache
+
+import numpy as np
+
+from springblock.model.material import Material
+from springblock.model.surface import Surface
+from springblock.simulation.run import Run
+
+#: Least number of blocks in the process zone and in l_z, from the errors in `docs/continuum.md`.
+BLOCKS, LAYERS = 6, 4
+#: Decay length over l_z of a layer with K_s of the model, across the sliding direction: the shorter
+#: one.
+_DECAY = math.sqrt(0.5)
+#: Switches to sliding per block that has slipped, above which blocks slip more than once.
+_SWITCHES = 1.05
+
+_warn_once = cache(logging.getLogger(__name__).warning)
+
+
+def kappa(material: Material, fraction: float) -> float:
+    """Return k d_c/Delta, with k = K_s/l² and Delta = (mu_s - mu_d) P/fraction.
+
+    `fraction` is the contact fraction.
+    """
+    drop = (material.mu_static - material.mu_dynamic) * material.pressure / fraction
+    return material.k_s / material.spacing**2 * material.slip_distance / drop
+
+
+def process_zone(decay: float, kappa: float) -> float:
+    """Return the length over which friction falls at a front, in the unit of `decay`.
+
+    (pi/2) lambda/sqrt(1/kappa - 1); without bound from kappa = 1 on.
+    """
+    return math.pi / 2.0 * decay * math.sqrt(kappa / (1.0 - kappa)) if kappa < 1.0 else math.inf
+
+
+def warn(surface: Surface, material: Material, run: Run) -> None:
+    """Warn, once for a material, where slip weakening depends on the lattice or on healing."""
+    if material.law != "slip_weakening" or material.mu_static <= material.mu_dynamic:
+        return
+    zone = process_zone(_DECAY * material.thickness, kappa(material, surface.contact.mean()))
+    finest = min(zone / BLOCKS, material.thickness / LAYERS)
+    if material.spacing > finest * (1.0 + 1e-9):
+        _warn_once(
+            f"spacing = {material.spacing:g} m does not resolve slip_distance = "
+            f"{material.slip_distance:g} m; choose at most {finest:.2g} m (docs/continuum.md)"
+        )
+    last = int(np.argmax(run.force)) + 1
+    again = run.switches[:last].sum() > _SWITCHES * run.detachments[:last].sum()
+    if again and material.healing == "instant":
+        _warn_once(
+            f"with gamma = {material.gamma:g} 1/s and slip_distance = {material.slip_distance:g} m "
+            "blocks stop, heal and slip again before the force peaks; compare with healing: none"
+        )

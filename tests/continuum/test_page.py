@@ -1,0 +1,35 @@
+"""The page on the continuum limit has the numbers of its table, and no sentence against them."""
+
+import pytest
+
+from continuum.chapter import rows
+from springblock.continuum.page import values
+from springblock.pages import rendered
+
+
+@pytest.mark.parametrize(
+    "number",
+    [
+        "are 0.0010 and 0.0010",  # the largest differences
+        "| square | d_c = 100 nm | 0.94 | 70 | 70 | 7.0 | 0.8000 | 0.8010 |",
+        "| 100 | 0.8175 | 0.8147 | 0.8140 | 2.0 |",  # 0.015 (l/l_z)²
+        "100 nm, against 70 µm",
+    ],
+)
+def test_the_page_has_the_numbers_of_its_table(number):
+    assert number in rendered("continuum.md", **values(rows()))
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"shape": "across", "simulated": 0.0}, "Theory and solver agree"),
+        ({"what": "Coulomb", "simulated": 0.7}, "Under Coulomb friction"),
+        ({"what": "pawls", "prominence": 0.02}, "On pawls of 80"),
+    ],
+)
+def test_a_sentence_against_the_table_is_refused(change, sentence):
+    (key, value), *others = change.items()
+    cells = [row | dict(others) if row[key] == value else row for row in rows()]
+    with pytest.raises(ValueError, match=f"contradict “{sentence}"):
+        rendered("continuum.md", **values(cells))

@@ -1,0 +1,49 @@
+"""Warnings where slip weakening depends on the lattice, or on healing."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from springblock import Material, Setup, Surface, simulate
+from springblock.simulation import resolution
+
+#: kappa = 0.94 on stripes with a contact fraction of 1/2: a long process zone.
+FINE = Material(
+    law="slip_weakening", slip_distance=5e-8, spacing=2.5e-6, mu_static_std=0.0, mu_dynamic_std=0.0
+)
+
+
+def warnings_of(material, caplog, duration=None, runs=1):
+    resolution._warn_once.cache_clear()
+    contact = np.outer([True] * 3, np.arange(16) < 8)
+    surface = Surface.draw(contact, 0, material, periodic=True)
+    for _ in range(runs):
+        simulate(surface, Setup(material, step=1e-8), duration=duration)
+    return [record.getMessage() for record in caplog.records if "slip_distance" in record.msg]
+
+
+@pytest.mark.parametrize(
+    ("changes", "named"),
+    [
+        ({}, None),
+        ({"slip_distance": 1e-8}, "choose at most 8.9e-07 m"),  # c_0 = 5.3 µm
+        ({"spacing": 5e-6}, "choose at most 2.5e-06 m"),  # a quarter of l_z
+        ({"law": "coulomb", "slip_distance": 0.0}, None),
+    ],
+)
+def test_a_lattice_that_does_not_resolve_the_weakening_is_named_once(changes, named, caplog):
+    """c_0/6 with lambda = 0.71 l_z, or l_z/4; two runs warn once."""
+    found = warnings_of(replace(FINE, **changes), caplog, duration=2e-6, runs=2)
+    assert len(found) == (named is not None)
+    assert not named or named in found[0]
+
+
+@pytest.mark.parametrize(
+    ("healing", "gamma", "is_told"),
+    [("instant", 5e3, True), ("none", 5e3, False), ("instant", 1e7, False)],
+)
+def test_blocks_that_heal_and_slip_again_before_the_peak_are_told(healing, gamma, is_told, caplog):
+    material = replace(FINE, healing=healing, gamma=gamma, slip_distance=2e-8)
+    found = warnings_of(material, caplog)
+    assert any("heal and slip again" in each for each in found) == is_told
