@@ -9,9 +9,9 @@ from springblock.solver.springs import (
     FORCE_Y,
     Band,
     Grid,
+    Scratch,
     Springs,
     forces_on_band,
-    scratch,
 )
 
 #: Not 1, so that it would be missed; a power of 2, so that it rounds nothing.
@@ -32,7 +32,7 @@ def spring_forces(displacement, band=None, periodic=False):
         unpadded(field, grid)[:] = u
     close_edges(ux, uy, grid)
     close_rows(ux, uy, grid)
-    s, every_row = scratch(), np.ones(n_y + 1, bool)
+    s, every_row = Scratch.empty(), np.ones(n_y + 1, bool)
     band = band or int(grid.band_rows)
     forces = []
     for start in range(0, n_y, band):
@@ -41,6 +41,6 @@ def spring_forces(displacement, band=None, periodic=False):
         y, x = map(int, forces_on_band(ux, uy, rows, every_row, s, *SPRINGS))
         if x:  # counted from one
             raise SimulationError(f"a spring of block ({y}, {x - 1}) has collapsed or burst")
-        found = [s[int(field) :][: (stop - start) * pitch] for field in (FORCE_X, FORCE_Y)]
+        found = [s.force[int(field) :][: (stop - start) * pitch] for field in (FORCE_X, FORCE_Y)]
         forces.append(np.reshape(found, (2, -1, pitch))[:, :, 1 : n_x + 1])
     return np.concatenate(forces, axis=1) / STIFFNESS

@@ -8,7 +8,7 @@ import pytest
 from springblock import Material, Pattern, Surface, draw_friction
 from springblock.solver import leapfrog
 from springblock.solver.lattice import Samples, band_from, prepare
-from springblock.solver.springs import scratch
+from springblock.solver.springs import Scratch
 
 STEP, EVERY = 2e-8, 10
 #: Loads ten times faster than the paper's, so that a few thousand steps show a whole run.
@@ -98,7 +98,7 @@ def test_a_row_at_rest_is_skipped_until_a_block_may_detach():
     pull = constants.springs.k_s * np.hypot(constants.slider_x, constants.slider_y)
     rows.sliding[:] = False
     band = band_from(np.uint64(0), constants)
-    leapfrog._settle_rows(blocks, None, rows, band, scratch(), pull, 0)
+    leapfrog._settle_rows(blocks, None, rows, band, Scratch.empty(), pull, 0)
     sure = rows.due[0]
     assert sure == pytest.approx(blocks.static[1:13].min() / pull, rel=1e-3)
     rows.due[:] = sure

@@ -28,10 +28,10 @@ from springblock.solver.springs import (
     ONE,
     Band,
     Grid,
+    Scratch,
     Springs,
     U,
     aligned,
-    scratch,
 )
 
 #: Entries of the ledger: slider work, frictional heat, and squared velocities, for viscous heat.
@@ -57,7 +57,7 @@ class State(NamedTuple):
     """State of the lattice, and the work arrays of an integrator."""
 
     blocks: Blocks
-    scratch: Array  #: springs and forces of a band of rows, see `springs`
+    scratch: Scratch
     work: tuple[Array, ...]  #: work fields of the integrator
     ledger: Array  #: (3,) sums over steps, see `WORK`
     peak: Array | None  #: running maximum of |F_mot|², for a prelude only
@@ -152,7 +152,7 @@ def prepare(
     )
     state = State(
         blocks=blocks,
-        scratch=scratch(),
+        scratch=Scratch.empty(),
         work=tuple(field() for _ in range(integrator.WORK_FIELDS)),
         ledger=np.zeros(3),
         peak=field() if keep_peak else None,
@@ -239,7 +239,7 @@ def update_peaks(peak, band, s):
         for row in range(band.start, band.stop):
             i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
             for x in range(ONE, band.grid.width + ONE):
-                fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
+                fx, fy = s.force[FORCE_X + own + x], s.force[FORCE_Y + own + x]
                 peak[i + x] = max(peak[i + x], fx * fx + fy * fy)
 
 

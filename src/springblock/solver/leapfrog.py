@@ -44,7 +44,7 @@ from springblock.solver.laws import (
     threshold_of,
 )
 from springblock.solver.release import force_in_patch, make_releases, release_theta
-from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band, one_row
+from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, TURNS, U, forces_on_band
 from springblock.solver.stability import leapfrog_force_time
 
 FORCE_EVALUATIONS = 1
@@ -52,8 +52,6 @@ WORK_FIELDS = 0
 
 #: Relative margin, against rounding, on the estimated number of steps that a row stays at rest.
 _SLACK = 1e-9
-#: Relative tolerance on the velocity of a block that F_mot has accelerated from rest.
-_FROM_REST = 1e-12
 #: Effectively infinite number of steps.
 _FOREVER = 1e15
 
@@ -106,57 +104,32 @@ def _without_phantoms(ux, uy, i, grid, sum_x, sum_y):
 
 
 @kernel
-def _list_releases(blocks, law, released, count, band, s, row):
-    """List the blocks of a row that were at rest until this step; return the number listed so far.
-
-    They have the velocity that F_mot and friction give a block at rest in one step.
-    """
-    i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
-    for x in range(ONE, band.grid.n_x + ONE):
-        b = i + x
-        vx, vy = blocks.vx[b], blocks.vy[b]
-        if blocks.static[b] > 0.0 and (vx != 0.0 or vy != 0.0):
-            fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
-            force = math.hypot(fx, fy)
-            state = state_at_release(law, state_of(law, b), math.hypot(vx, vy))
-            friction = resistance(
-                law, state, 0.5 * force, -0.5, blocks.static[b], blocks.dynamic[b]
-            )
-            left = 1.0 - friction / force
-            if math.hypot(vx - left * fx, vy - left * fy) <= _FROM_REST * force:
-                released.row[count], released.x[count] = np.int64(row), np.int64(x)
-                released.ax[count], released.ay[count] = vx, vy
-                count += 1
-    return count
-
-
-@kernel
-def _record_switches(blocks, law, released, count, band, s, dots, row, now):
+def _record_switches(blocks, released, count, band, s, row, now):
     """Record switches to sliding and first detachments in a row; list blocks released from rest.
 
-    `dots` holds w·v of each block: negative if it has reversed, zero if it was at rest. Returns the
-    switches, and the number of blocks released so far.
+    Scratch holds w·v of each block: negative if it has reversed, zero if it was at rest. Returns
+    the switches, and the number of blocks released so far.
     """
-    switches, from_rest = np.int64(0), False
-    i, t_det = row * band.grid.pitch, blocks.t_det
+    switches, i = np.int64(0), row * band.grid.pitch
     for x in range(ONE, band.grid.n_x + ONE):
-        b = i + x
-        slides = ((blocks.vx[b] != 0.0) | (blocks.vy[b] != 0.0)) & (blocks.static[b] > 0.0)
-        switched = slides & (dots[x] <= 0.0)
-        switches += np.int64(switched)
-        t_det[b] = now if switched & (t_det[b] > now) else t_det[b]
-        from_rest = from_rest | (slides & (dots[x] == 0.0))
-    if from_rest:
-        count = _list_releases(blocks, law, released, count, band, s, row)
+        b, vx, vy = i + x, blocks.vx[i + x], blocks.vy[i + x]
+        if blocks.static[b] == 0.0 or (vx == 0.0 and vy == 0.0) or s.row[TURNS + x] > 0.0:
+            continue
+        switches += 1
+        blocks.t_det[b] = min(blocks.t_det[b], now)
+        if s.row[TURNS + x] == 0.0:
+            released.row[count], released.x[count] = np.int64(row), np.int64(x)
+            released.ax[count], released.ay[count] = vx, vy
+            count += 1
     return switches, count
 
 
 @kernel
-def _move_rows_in_contact(blocks, law, rows, released, count, band, s, dots, a, now):
+def _move_rows_in_contact(blocks, law, rows, released, count, band, s, a, now):
     """Kick and drift the blocks of those rows of a band that are awake and hold contacts; record
     switches and first detachments, and list releases.
 
-    `dots` is a work array for w·v of the blocks of a row. Returns what `move_band` returns.
+    Returns what `move_band` returns.
     """
     ux, uy, vx, vy = blocks.ux, blocks.uy, blocks.vx, blocks.vy
     static, dynamic, switches = blocks.static, blocks.dynamic, np.int64(0)
@@ -168,7 +141,7 @@ def _move_rows_in_contact(blocks, law, rows, released, count, band, s, dots, a, 
         sum_x, sum_y, heat, squares = 0.0, 0.0, 0.0, 0.0
         for x in range(ONE, band.grid.width + ONE):
             b = i + x
-            fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
+            fx, fy = s.force[FORCE_X + own + x], s.force[FORCE_Y + own + x]
             old_x, old_y = vx[b], vy[b]
             trial_x, trial_y = a * old_x + fx, a * old_y + fy
             new_x, new_y, slides, w_dot_v = apply_friction(
@@ -179,7 +152,7 @@ def _move_rows_in_contact(blocks, law, rows, released, count, band, s, dots, a, 
             vy[b] = new_y
             ux[b] = next_x
             uy[b] = next_y
-            dots[x] = w_dot_v
+            s.row[TURNS + x] = w_dot_v
             slide = slide | slides
             switch = switch | (slides & (w_dot_v <= 0.0) & (static[b] > 0.0))
             sum_x = add(sum_x, next_x)
@@ -192,7 +165,7 @@ def _move_rows_in_contact(blocks, law, rows, released, count, band, s, dots, a, 
         rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band.grid, sum_x, sum_y)
         rows.heat[row], rows.squares[row] = 0.5 * heat, squares
         if switch:
-            more, count = _record_switches(blocks, law, released, count, band, s, dots, row, now)
+            more, count = _record_switches(blocks, released, count, band, s, row, now)
             switches += more
     return switches, count
 
@@ -211,7 +184,7 @@ def _move_free_rows(blocks, rows, band, s, a):
         sum_x, sum_y, squares = 0.0, 0.0, 0.0
         for x in range(ONE, band.grid.width + ONE):
             b = i + x
-            fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
+            fx, fy = s.force[FORCE_X + own + x], s.force[FORCE_Y + own + x]
             new_x, new_y = a * vx[b] + fx, a * vy[b] + fy
             new_x, new_y = (new_x, new_y) if x <= band.grid.n_x else (0.0, 0.0)
             next_x, next_y = ux[b] + new_x, uy[b] + new_y
@@ -313,7 +286,7 @@ def _steps_at_rest(blocks, law, s, own, i, n, pull):
     """
     least = np.inf
     for x in range(ONE, n + ONE):
-        b, fx, fy = i + x, s[FORCE_X + own + x], s[FORCE_Y + own + x]
+        b, fx, fy = i + x, s.force[FORCE_X + own + x], s.force[FORCE_Y + own + x]
         strength = strength_of(law, state_of(law, b), blocks.static[b], blocks.dynamic[b])
         least = min(least, strength - math.sqrt(fx * fx + fy * fy))
     return np.int64(min((1.0 - _SLACK) * least / pull, _FOREVER))
@@ -341,9 +314,7 @@ def move_band(blocks, law, peak, rows, released, count, band, s, constants, now)
     a = math.exp(-constants.damping)
     pull = constants.springs.k_s * math.hypot(constants.slider_x, constants.slider_y)
     update_peaks(peak, band, s)
-    switches, count = _move_rows_in_contact(
-        blocks, law, rows, released, count, band, s, one_row(s), a, now
-    )
+    switches, count = _move_rows_in_contact(blocks, law, rows, released, count, band, s, a, now)
     _move_free_rows(blocks, rows, band, s, a)
     _settle_rows(blocks, law, rows, band, s, pull, now)
     return switches, count

@@ -11,12 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from springblock.model.numbers import Array
 from springblock.solver.compilation import kernel
 from springblock.solver.lattice import Constants, Samples, State, band_from, close_rows, tally
 from springblock.solver.leapfrog import make_rows, move_band, place_releases, totals, wake
 from springblock.solver.release import Releases, make_releases
-from springblock.solver.springs import ONE, Band, U, forces_on_band, scratch
+from springblock.solver.springs import ONE, Band, Scratch, U, forces_on_band
 
 
 class Part(NamedTuple):
@@ -25,8 +24,8 @@ class Part(NamedTuple):
     start: np.uint64
     stop: np.uint64
     last: np.uint64  #: first row of the last band
-    lower: Array  #: scratch of all bands but the last
-    upper: Array  #: scratch of the last band
+    lower: Scratch  #: of all bands but the last
+    upper: Scratch  #: of the last band
     released: Releases
 
 
@@ -39,7 +38,7 @@ def parts_of(constants: Constants, cores: int) -> list[Part]:
     for start, stop in zip(cuts[:-1].tolist(), np.minimum(cuts[1:], n_y).tolist(), strict=True):
         released = make_releases((stop - start) * n_x)
         last = (stop - 1) // size * size
-        parts.append(Part(U(start), U(stop), U(last), scratch(), scratch(), released))
+        parts.append(Part(U(start), U(stop), U(last), Scratch.empty(), Scratch.empty(), released))
     return parts
 
 

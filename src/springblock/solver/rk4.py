@@ -110,7 +110,7 @@ def _begin_step(blocks, law, stage, released, count, band, s, damping, now):
             b = i + x
             if static[b] == 0.0:
                 continue
-            fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
+            fx, fy = s.force[FORCE_X + own + x], s.force[FORCE_Y + own + x]
             rests = vx[b] == 0.0 and vy[b] == 0.0
             half_x, half_y = (0.5 * fx, 0.5 * fy) if rests else (vx[b], vy[b])
             speed, slip = math.sqrt(half_x * half_x + half_y * half_y), state_of(law, b)
@@ -217,8 +217,8 @@ def _advance_stage(blocks, law, stage, weight, reach, band, s, damping):
             friction = (
                 blocks.dynamic[b] if law is None else _friction_in_stage(blocks, law, stage, b)
             )
-            ax = s[FORCE_X + own + x] - damping * stage_x - friction * ex[b]
-            ay = s[FORCE_Y + own + x] - damping * stage_y - friction * ey[b]
+            ax = s.force[FORCE_X + own + x] - damping * stage_x - friction * ex[b]
+            ay = s.force[FORCE_Y + own + x] - damping * stage_y - friction * ey[b]
             rests = (ex[b] == 0.0) & (ey[b] == 0.0)
             ax, ay = 0.0 if rests else ax, 0.0 if rests else ay
             stage.dx[b] += weight * stage_x

@@ -8,7 +8,7 @@ from springblock.model.numbers import Array
 from springblock.solver.compilation import kernel
 from springblock.solver.lattice import Constants, State, band_from, close_rows
 from springblock.solver.laws import resistance, state_of
-from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band, scratch
+from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, Scratch, U, forces_on_band
 
 
 def shear_forces(state: State, constants: Constants, steps: int, velocity: Array) -> Array:
@@ -20,7 +20,7 @@ def shear_forces(state: State, constants: Constants, steps: int, velocity: Array
     force = np.zeros_like(velocity)
     slider = constants.slider_x * steps, constants.slider_y * steps
     every_row = np.ones(constants.grid.shape[0] + 1, np.bool_)
-    _enter(state.blocks, state.law, constants, slider, velocity, every_row, scratch(), force)
+    _enter(state.blocks, state.law, constants, slider, velocity, every_row, Scratch.empty(), force)
     return force
 
 
@@ -39,7 +39,10 @@ def _enter(blocks, law, constants, slider, velocity, every_row, s, force):
                 vx, vy = velocity[0, b], velocity[1, b]
                 speed = math.hypot(vx, vy)
                 if static > 0.0 and speed == 0.0:
-                    force[0, b], force[1, b] = s[FORCE_X + own + x], s[FORCE_Y + own + x]
+                    force[0, b], force[1, b] = (
+                        s.force[FORCE_X + own + x],
+                        s.force[FORCE_Y + own + x],
+                    )
                 elif static > 0.0:
                     slip = state_of(law, b)
                     friction = resistance(law, slip, speed, 0.0, static, blocks.dynamic[b])

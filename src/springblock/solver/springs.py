@@ -51,13 +51,12 @@ LANES = 8
 
 U = np.uint64  # signed indices would be checked for wrap-around, and not vectorised
 ONE = U(1)
-# Offsets of the fields of scratch: first the forces on a band of rows, then the springs of one row,
-# whose offsets count from the start of the view `one_row`. Their distance is constant, so that the
-# compiler can exclude overlaps, and not a power of two, so that they do not share cache sets.
+#: Numbers in a field of `Scratch`: constant, so that the compiler can exclude overlaps, and not a
+#: power of two, so that fields do not share cache sets.
 _FIELD = MAX_BLOCKS + 72
-_FIELDS = tuple(U(k * _FIELD) for k in range(10))
-FORCE_X, FORCE_Y = _FIELDS[:2]
-EAST_X, EAST_Y, NORTH_X, NORTH_Y, NE_X, NE_Y, NW_X, NW_Y, BELOW_X, BELOW_Y = _FIELDS
+_OF_BAND = FORCE_X, FORCE_Y = tuple(U(k * _FIELD) for k in range(2))
+_OF_ROW = tuple(U(k * _FIELD) for k in range(11))
+EAST_X, EAST_Y, NORTH_X, NORTH_Y, NE_X, NE_Y, NW_X, NW_Y, BELOW_X, BELOW_Y, TURNS = _OF_ROW
 
 
 class Grid(NamedTuple):
@@ -106,6 +105,22 @@ class Columns(NamedTuple):
     stop: np.uint64
 
 
+class Scratch(NamedTuple):
+    """Work arrays of one band of rows; each consists of fields, whose offsets have names."""
+
+    force: Array  #: F_mot on the blocks of the band, rows of `pitch` numbers: `FORCE_X`, `FORCE_Y`
+    #: For the row that is being computed, forces of springs on its blocks (to the east, north,
+    #: north-east, and north-west of the block to the east), forces on them from the row below, and
+    #: w·v, see `leapfrog`.
+    row: Array
+
+    @classmethod
+    def empty(cls) -> "Scratch":
+        """Return zeroed arrays."""
+        memory = aligned((len(_OF_BAND) + len(_OF_ROW)) * _FIELD)
+        return cls(memory[: len(_OF_BAND) * _FIELD], memory[len(_OF_BAND) * _FIELD :])
+
+
 class Springs(NamedTuple):
     """Stiffness of the springs, in the kernels' units."""
 
@@ -117,12 +132,6 @@ class Springs(NamedTuple):
     def of(cls, kappa: float, k_s: float) -> "Springs":
         """Return the springs with the coefficients of kappa g(q), lowest order first."""
         return cls(kappa, tuple((kappa * series()).tolist()), k_s)
-
-
-@njit(inline="always")
-def one_row(s):
-    """View of the fields of scratch that hold one row."""
-    return s[2 * _FIELD :]
 
 
 @register_jitable
@@ -188,10 +197,10 @@ def _stretch(relative):
 def _store_pulls(s, x, relative, east, north, ne, nw):
     """Store the forces F = pull (e + d) of the four springs."""
     (ex, ey), (nx, ny), (nex, ney), (nwx, nwy) = relative
-    s[EAST_X + x], s[EAST_Y + x] = east + east * ex, east * ey
-    s[NORTH_X + x], s[NORTH_Y + x] = north * nx, north + north * ny
-    s[NE_X + x], s[NE_Y + x] = ne + ne * nex, ne + ne * ney
-    s[NW_X + x], s[NW_Y + x] = nw * nwx - nw, nw + nw * nwy
+    s.row[EAST_X + x], s.row[EAST_Y + x] = east + east * ex, east * ey
+    s.row[NORTH_X + x], s.row[NORTH_Y + x] = north * nx, north + north * ny
+    s.row[NE_X + x], s.row[NE_Y + x] = ne + ne * nex, ne + ne * ney
+    s.row[NW_X + x], s.row[NW_Y + x] = nw * nwx - nw, nw + nw * nwy
 
 
 @njit(inline="always")
@@ -270,12 +279,17 @@ def _close_springs(s, grid):
     """
     if grid.periodic is not None:
         n = grid.n_x
-        s[EAST_X], s[EAST_Y] = s[EAST_X + n], s[EAST_Y + n]
-        s[NE_X], s[NE_Y], s[NW_X], s[NW_Y] = s[NE_X + n], s[NE_Y + n], s[NW_X + n], s[NW_Y + n]
+        s.row[EAST_X], s.row[EAST_Y] = s.row[EAST_X + n], s.row[EAST_Y + n]
+        s.row[NE_X], s.row[NE_Y], s.row[NW_X], s.row[NW_Y] = (
+            s.row[NE_X + n],
+            s.row[NE_Y + n],
+            s.row[NW_X + n],
+            s.row[NW_Y + n],
+        )
 
 
 @njit(inline="always")
-def _sum_forces(ux, uy, row, band, columns, s, force, k_s, slider):
+def _sum_forces(ux, uy, row, band, columns, s, k_s, slider):
     """Store F_mot of the blocks of a row, summed over its springs and those from the row below.
 
     The forces of its springs on the next row are kept in BELOW. The order of summation is invariant
@@ -284,23 +298,31 @@ def _sum_forces(ux, uy, row, band, columns, s, force, k_s, slider):
     """
     pitch, (sx, sy) = band.grid.pitch, slider
     i, own, w = row * pitch, (row - band.start) * pitch, columns.start - ONE
-    e_x, e_y = s[EAST_X + w], s[EAST_Y + w]
-    ne_x, ne_y, nw_x, nw_y = s[NE_X + w], s[NE_Y + w], s[NW_X + w], s[NW_Y + w]
+    e_x, e_y = s.row[EAST_X + w], s.row[EAST_Y + w]
+    ne_x, ne_y, nw_x, nw_y = s.row[NE_X + w], s.row[NE_Y + w], s.row[NW_X + w], s.row[NW_Y + w]
     for x in range(columns.start, columns.stop):
         # Springs from the column to the west: east, north-east, and north-west from this block.
         w_x, w_y, wne_x, wne_y, wnw_x, wnw_y = e_x, e_y, ne_x, ne_y, nw_x, nw_y
-        e_x, e_y, n_x, n_y = s[EAST_X + x], s[EAST_Y + x], s[NORTH_X + x], s[NORTH_Y + x]
-        ne_x, ne_y, nw_x, nw_y = s[NE_X + x], s[NE_Y + x], s[NW_X + x], s[NW_Y + x]
+        e_x, e_y, n_x, n_y = (
+            s.row[EAST_X + x],
+            s.row[EAST_Y + x],
+            s.row[NORTH_X + x],
+            s.row[NORTH_Y + x],
+        )
+        ne_x, ne_y, nw_x, nw_y = s.row[NE_X + x], s.row[NE_Y + x], s.row[NW_X + x], s.row[NW_Y + x]
         north_x, north_y = n_x + 0.5 * (ne_x + wnw_x), n_y + 0.5 * (ne_y + wnw_y)
-        fx = (e_x - w_x) + (north_x - s[BELOW_X + x])
-        fy = (e_y - w_y) + (north_y - s[BELOW_Y + x])
-        force[FORCE_X + own + x] = fx + k_s * (sx - ux[i + x])
-        force[FORCE_Y + own + x] = fy + k_s * (sy - uy[i + x])
-        s[BELOW_X + x], s[BELOW_Y + x] = n_x + 0.5 * (nw_x + wne_x), n_y + 0.5 * (nw_y + wne_y)
+        fx = (e_x - w_x) + (north_x - s.row[BELOW_X + x])
+        fy = (e_y - w_y) + (north_y - s.row[BELOW_Y + x])
+        s.force[FORCE_X + own + x] = fx + k_s * (sx - ux[i + x])
+        s.force[FORCE_Y + own + x] = fy + k_s * (sy - uy[i + x])
+        s.row[BELOW_X + x], s.row[BELOW_Y + x] = (
+            n_x + 0.5 * (nw_x + wne_x),
+            n_y + 0.5 * (nw_y + wne_y),
+        )
 
 
 @kernel
-def _forces_on_columns(ux, uy, band, columns, needed, s, force, springs, slider):
+def _forces_on_columns(ux, uy, band, columns, needed, s, springs, slider):
     """Store F_mot of columns of a band; return row and column of a broken spring, or column 0.
 
     A row is skipped if neither it nor the next one is `needed`.
@@ -312,12 +334,12 @@ def _forces_on_columns(ux, uy, band, columns, needed, s, force, springs, slider)
                 if broken > 0:
                     return row, broken
             _close_springs(s, band.grid)
-            _sum_forces(ux, uy, row, band, columns, s, force, springs.k_s, slider)
+            _sum_forces(ux, uy, row, band, columns, s, springs.k_s, slider)
     return band.stop, U(0)
 
 
 @kernel
-def _forces_on_rows(ux, uy, band, needed, pulls, s, springs, slider):
+def _forces_on_rows(ux, uy, band, needed, s, springs, slider):
     """Store F_mot of a band, given the forces on its first row from the row below."""
     end = band.grid.width + ONE
     # A periodic row is one tile, as its first block needs the springs of the last one.
@@ -325,7 +347,7 @@ def _forces_on_rows(ux, uy, band, needed, pulls, s, springs, slider):
     for first in range(ONE, end, tile):
         start = U(first)
         columns = Columns(start - U(LANES) if start > 1 else start, start, min(start + tile, end))
-        row, broken = _forces_on_columns(ux, uy, band, columns, needed, pulls, s, springs, slider)
+        row, broken = _forces_on_columns(ux, uy, band, columns, needed, s, springs, slider)
         if broken > 0:
             return row, broken
     return band.stop, U(0)
@@ -333,27 +355,22 @@ def _forces_on_rows(ux, uy, band, needed, pulls, s, springs, slider):
 
 @kernel
 def forces_on_band(ux, uy, band, needed, s, springs, slider):
-    """Store F_mot of a band, under a slider at (x, y), in FORCE_X and FORCE_Y of scratch `s`.
+    """Store F_mot of a band, under a slider at (x, y), in the scratch `s`.
 
     Call it for bands in ascending order. Forces are valid only in rows that are `needed`,
     (N_y + 1,). Returns row and column (from 1) of a spring outside the allowed strains or NaN;
     column 0 if there is none.
     """
-    pulls, grid = one_row(s), band.grid
+    grid = band.grid
     if band.start == 0:
         for x in range(ONE, grid.width + ONE):
-            pulls[BELOW_X + x], pulls[BELOW_Y + x] = 0.0, 0.0
+            s.row[BELOW_X + x], s.row[BELOW_Y + x] = 0.0, 0.0
         if grid.periodic is not None:  # the last row is below the first
             last = Band(grid.n_y - ONE, grid.n_y, grid)
-            row, broken = _forces_on_rows(ux, uy, last, needed, pulls, s, springs, slider)
+            row, broken = _forces_on_rows(ux, uy, last, needed, s, springs, slider)
             if broken > 0:
                 return row, broken
-    return _forces_on_rows(ux, uy, band, needed, pulls, s, springs, slider)
-
-
-def scratch() -> Array:
-    """Return the scratch of one band of rows."""
-    return aligned((2 + len(_FIELDS)) * _FIELD)
+    return _forces_on_rows(ux, uy, band, needed, s, springs, slider)
 
 
 def aligned(size: int, shift: int = 0) -> Array:
