@@ -1,7 +1,7 @@
 """What the README, the pages and the notebook show runs as it stands there, with these answers.
 
-`python tests/test_examples.py` runs the notebook and the gallery and keeps what they show. Jupyter is not needed for
-that: what a cell shows is what it prints and its last expression.
+`python tests/test_examples.py` runs the notebook and the gallery and keeps what they show. Jupyter
+is not needed for that: what a cell shows is what it prints and its last expression.
 """
 
 import ast
