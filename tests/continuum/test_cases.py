@@ -1,5 +1,6 @@
 """Unit cells: the simulation agrees with the theory, and the register with the code."""
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -45,7 +46,7 @@ def test_each_part_has_its_series():
 
 
 def test_springs_to_the_slider_change_alone():
-    other = with_springs(PLAIN, 2.0)
+    other = with_springs(PLAIN, math.sqrt(2.0))
     assert other.k_s == pytest.approx(2.0 * PLAIN.k_s)
     assert (other.k_int, other.mass) == pytest.approx((PLAIN.k_int, PLAIN.mass))
 

@@ -4,13 +4,11 @@ python -m springblock.continuum.cases > docs/registration/continuum.csv    # the
 """
 
 import math
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
-import pandas as pd
 import pyarrow as pa
 from tqdm import tqdm
 
@@ -38,8 +36,6 @@ PLAIN = Material(
 _WIDTHS, _SIZES = (3, 4, 5, 6, 7, 8, 10, 14), (2, 3, 4, 6, 8, 10, 15)
 #: Blocks per l_z of stripes and of squares.
 _FINE, _COARSE = 8, 4
-#: Pillars along a side of a cell with disorder.
-_MANY = 2
 
 
 @dataclass(frozen=True)
@@ -117,21 +113,14 @@ def _varied(shape: str) -> Iterator[Series]:
     for gap in (0.5, 2.0):
         yield Series(shape, f"b/a = {gap:g}", plain, gap)
     for factor in (0.5, 2.0):
-        yield Series(shape, f"K_s x {factor:g}", with_springs(plain, factor))
+        yield Series(shape, f"K_s x {factor:g}", with_springs(plain, math.sqrt(factor)))
 
 
-def with_springs(material: Material, factor: float) -> Material:
-    """Return a material with another K_s, and the same K_int, mass and l.
-
-    K_int = 3/4 E l_z and K_s = K_int l²/l_z²: l_z decreases by the root, and E and rho increase.
-    """
-    root = math.sqrt(factor)
-    return replace(
-        material,
-        thickness=material.thickness / root,
-        youngs_modulus=material.youngs_modulus * root,
-        density=material.density * root,
-    )
+def with_springs(material: Material, root: float) -> Material:
+    """Return a material with K_s = 3/4 E l²/l_z multiplied by root², and the same K_int and m."""
+    thickness, density = material.thickness / root, material.density * root
+    modulus = material.youngs_modulus * root
+    return replace(material, thickness=thickness, density=density, youngs_modulus=modulus)
 
 
 def _lattices() -> Iterator[Series]:
@@ -139,10 +128,10 @@ def _lattices() -> Iterator[Series]:
     for spacing in (5e-6, 2.5e-6, 1.25e-6):
         fine = replace(PLAIN, spacing=spacing)
         yield Series("square", "lattice", fine, widths=(4, 6, 10), predicted=spacing > 2e-6)
+    coulomb = replace(PLAIN, law="coulomb", slip_distance=0.0, healing="instant")
     for spacing in (1e-5, 5e-6, 2.5e-6):
-        coulomb = replace(PLAIN, law="coulomb", slip_distance=0.0, healing="instant")
-        coulomb = replace(coulomb, spacing=spacing)
-        yield Series("square", "Coulomb", coulomb, widths=(4, 8, 16), predicted=False)
+        coarse = replace(coulomb, spacing=spacing)
+        yield Series("square", "Coulomb", coarse, widths=(4, 8, 16), predicted=False)
     for spacing, d_c in product((5e-6, 2.5e-6, 1.25e-6, 6.25e-7), (2e-8, 3e-8, 5e-8, 1e-7)):
         zone = replace(PLAIN, spacing=spacing, slip_distance=d_c)
         yield Series("across", "lattice", zone, widths=(4.0825, 6.532, 9.798))
@@ -167,7 +156,7 @@ def _disorder() -> Iterator[Series]:
     for length, healing in ((0.0, "none"), (1e-5, "none"), (1e-5, "instant")):
         material = replace(drawn, correlation_length=length, healing=healing)
         what = f"disorder, {'independent' if not length else 'correlated'}"
-        yield Series("square", what, material, 1.0, (2, 4, 6, 10, 15), _MANY, (0, 1, 2, 3))
+        yield Series("square", what, material, 1.0, (2, 4, 6, 10, 15), 2, (0, 1, 2, 3), False)
 
 
 SERIES = {
@@ -246,20 +235,16 @@ def lowest_point(widths: np.ndarray, values: np.ndarray) -> tuple[float, float]:
     return math.exp(-b / (2.0 * a)), float(c - b * b / (4.0 * a))
 
 
-def predictions() -> pd.DataFrame:
-    """Return what the theory predicts for `across`, `along` and `square`."""
-    rows = []
+def predictions() -> Iterator[str]:
+    """Yield what the theory predicts for `across`, `along` and `square`, as lines of a table."""
+    yield "shape,what,kappa,width,friction,lowest_at,lowest"
     for series in (each for shape in ("across", "along", "square") for each in SERIES[shape]):
         widths = np.array(series.blocks) * series.material.spacing
-        values = np.array([series.prediction(n) for n in series.blocks])
-        at, least = lowest_point(widths, values)
-        known = {"shape": series.shape, "what": series.what, "kappa": series.groups.kappa}
-        for width, value in zip(widths, values, strict=True):
-            rows.append(
-                known | {"width": width, "friction": value, "lowest_at": at, "lowest": least}
-            )
-    return pd.DataFrame(rows)
+        found = np.array([series.prediction(n) for n in series.blocks])
+        for own in zip(widths, found, strict=True):
+            numbers = series.groups.kappa, *own, *lowest_point(widths, found)
+            yield ",".join([series.shape, series.what, *(f"{number:.4g}" for number in numbers)])
 
 
 if __name__ == "__main__":
-    predictions().to_csv(sys.stdout, index=False, float_format="%.4g", lineterminator="\n")
+    print(*predictions(), sep="\n")

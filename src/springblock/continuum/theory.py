@@ -178,17 +178,6 @@ def sharp_minimum(residual: float, kappa: float) -> tuple[float, float]:
     return 2.0 * (x + 1.0 / (x - 1.0)), math.sqrt(kappa) / x
 
 
-def minimum(residual: float, kappa: float, gap: float = 1.0) -> tuple[float, float]:
-    """Return the width of lowest friction over lambda, and its excess, of cohesive stripes.
-
-    `gap` is b/a, which kappa depends on through sigma_n and which is therefore kept.
-    """
-    found = minimize_scalar(
-        lambda a: stripe(a, gap * a, residual, kappa).excess, bounds=(1.0, 30.0), method="bounded"
-    )
-    return float(found.x), float(found.fun)
-
-
 class Slip(NamedTuple):
     """Slip of a quarter of a periodic cell, flat (N_y N_x,)."""
 

@@ -39,8 +39,8 @@ def continuum_friction(table: pd.DataFrame) -> Figure:
     for shape, words in (("across", "across"), ("along", "along sliding")):
         stripes.plot([], [], _MARKERS[shape], color=BLACK, label=words)
     for ax in (stripes, squares):
-        ax.set_ylim(None, 1.0)
-        ax.legend(loc="lower right" if ax is stripes else "upper right")
+        ax.set_ylim(None, 1.05)
+        ax.legend(loc="upper right", ncols=2)
     return picture
 
 
@@ -55,7 +55,7 @@ def _draw_points(ax: Axes, cells: pd.DataFrame, places: pd.Series, color: str) -
     """Draw the simulation: open symbols for layers other than the paper's."""
     usual = np.isclose(cells["thickness"], 1e-5)
     for shape, marker in _MARKERS.items():
-        for fill, chosen in (("full", usual), ("none", ~usual)):
+        for fill, chosen, size in (("full", usual, 3.0), ("none", ~usual, 6.0)):
             part = cells[chosen & (cells["shape"] == shape)]
-            look: Look = {"color": color, "marker": marker, "linestyle": "none"}
+            look: Look = {"color": color, "marker": marker, "linestyle": "none", "markersize": size}
             ax.plot(places[part.index], part["simulated"], fillstyle=fill, **look)
