@@ -6,10 +6,11 @@ larger, as in the simulation. The models differ in what follows:
 independent    The block carries mu_d F_n from then on; the others are unaffected.
 quasi_static   The block carries mu_d F_n from then on, and the others take up the load that it has
                lost: the layer is always in equilibrium, as without inertia or with strong damping.
-overshooting   The block slips as without damping between neighbours at rest, until its force is
-               as far below mu_d F_n as it was above, (2 mu_d - mu_s) F_n, and sticks again. Slips
-               follow one another, the most overloaded block first, while the slider does not move,
-               until no block exceeds its threshold.
+sticking       The block slips between neighbours at rest until its force is mu_d F_n, and sticks
+               again, as strong as before. Slips follow one another, the most overloaded block
+               first, while the slider does not move, until no block exceeds its threshold.
+overshooting   The same, but the block slips as without damping, until its force is as far below
+               mu_d F_n as it was above, (2 mu_d - mu_s) F_n.
 
 The friction force is the component of F_mot along x, the direction of the slider; the friction of
 sliding blocks acts along x.
@@ -22,8 +23,8 @@ import numpy as np
 from springblock.mechanism.elasticity import Layer
 from springblock.model.numbers import Array
 
-#: Least stress drop of an overshooting block over its strength; without a drop it would detach
-#: again at once.
+#: Least stress drop of a block that sticks again over its strength; without a drop it would detach
+#: at once.
 _LEAST_DROP = 0.01
 #: Relative excess of a force over the strength that is rounding.
 _SLACK = 1e-9
@@ -93,10 +94,24 @@ def quasi_static(layer: Layer, static: Array, dynamic: Array) -> Curve:
     return Curve(*np.array(found).T)
 
 
+def sticking(layer: Layer, static: Array, dynamic: Array) -> Curve:
+    """Let blocks slip to their dynamic friction and stick again."""
+    return _stick_slip(layer, np.maximum(static, dynamic), dynamic)
+
+
 def overshooting(layer: Layer, static: Array, dynamic: Array) -> Curve:
-    """Let blocks slip and stick again, until each has detached once."""
-    strength, k = np.maximum(static, dynamic), len(static)
-    left = np.minimum(2.0 * dynamic - strength, (1.0 - _LEAST_DROP) * strength)
+    """Let blocks overshoot their dynamic friction and stick again."""
+    strength = np.maximum(static, dynamic)
+    return _stick_slip(layer, strength, 2.0 * dynamic - strength)
+
+
+#: The models by name, each with one effect more than the one before.
+MODELS = {model.__name__: model for model in (independent, quasi_static, sticking, overshooting)}
+
+
+def _stick_slip(layer: Layer, strength: Array, left: Array) -> Curve:
+    """Let blocks slip until the force on them is `left`, (k,) N, until each has detached once."""
+    k, left = len(strength), np.minimum(left, (1.0 - _LEAST_DROP) * strength)
     pairs = layer.stiffness.reshape(2, k, 2, k)[:, range(k), :, range(k)]
     compliance = np.linalg.inv(pairs)  # (k, 2, 2) of each block between others at rest
     force, slipped, s = np.zeros((2, k)), np.zeros(k, bool), 0.0
