@@ -28,7 +28,7 @@ full: setup
 FINDINGS := src/springblock/report/findings.md
 docs: full
 	$(BIN)/springblock dictionary --output docs/tables.md
-	cp results/accuracy.md results/claims.md results/mechanism.md results/continuum.md results/beyond.md docs
+	cp results/accuracy.md results/claims.md results/mechanism.md results/continuum.md docs
 	cp results/figures/figure_6.png results/figures/continuum_friction.png docs
 	$(BIN)/python -m springblock.claims.full_study results/tables/claims.parquet
 	$(BIN)/springblock make findings results/tables/claims.parquet results/tables/realisations.parquet --output $(FINDINGS)
@@ -86,7 +86,7 @@ INTERPRETED := test_springs or test_release or test_laws or (small and 7-3) or w
 coverage: setup
 	$(BIN)/coverage erase
 	$(BIN)/coverage run -m pytest $(PARALLEL) $(addprefix tests/,model analysis simulation solver \
-	    beyond cli claims/test_rule.py claims/test_samples.py validation/test_law_files.py) -k "not study_may"
+	    cli claims/test_rule.py claims/test_samples.py validation/test_law_files.py) -k "not study_may"
 	NUMBA_DISABLE_JIT=1 $(BIN)/coverage run -m pytest -W ignore $(PARALLEL) --dist load \
 	    $(addprefix tests/solver/test_,springs.py release.py laws.py parallel.py) \
 	    $(addprefix tests/simulation/test_,fields.py simulation.py) \

@@ -55,9 +55,9 @@ rule all:
         rules.reference_solutions.output if config["accuracy"] and config["verification"] else [],
         MODEL_PARTS,
         MODELS,
-        rules.mechanism.output if config["mechanism"] == "all" else [],
+        SENSITIVE,
+        EXPLAINED,
         CONTINUUM,
-        rules.beyond.output if GROUPS_BEYOND else [],
     localrule: True
     message:
         f"The study is complete; its tables and figures are in {RESULTS}"

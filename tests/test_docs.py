@@ -9,7 +9,6 @@ import click
 import pytest
 
 from springblock import Material, Realisation
-from springblock.beyond.page import page as beyond_page
 from springblock.claims import STATEMENTS
 from springblock.claims.full_study import verdicts
 from springblock.cli import main
@@ -25,18 +24,6 @@ PAGES = {
 
 LINKING = ["README.md", "CONTRIBUTING.md", "config/README.md"]
 LINKING += [str(file.relative_to(ROOT)) for file in sorted(ROOT.glob("docs/**/*.md"))]
-
-
-def unmeasured(text, measured, between="\n"):
-    """Lines, or parts of another kind, that hold for any study."""
-    return [part for part in text.split(between) if part.strip() and not part.startswith(measured)]
-
-
-def test_the_page_beyond_the_paper_is_what_the_code_writes():
-    measured = ("|", "**", "- ", "1. ", "Hierarchy: ")
-    page, text = (unmeasured(each, measured, "\n\n") for each in (PAGES["beyond"], beyond_page({})))
-    assert page == text
-    assert "**Not answered**" not in PAGES["beyond"]
 
 
 def test_the_dictionary_of_tables_is_what_the_code_writes():
@@ -69,8 +56,8 @@ def test_the_symbols_of_the_model_are_those_of_the_code():
 
 def test_findings_that_are_quoted_stand_in_a_page_of_results():
     """Values with intervals: of the README, and of the model where it names a page alone."""
-    computed = "".join(PAGES[name] for name in ("accuracy", "beyond", "claims")).replace("+", "")
-    rows = re.findall(r"^\|.*\(`(?:beyond|accuracy)\.md`(?:, \d)?\) \|$", PAGES["model"], re.M)
+    computed = "".join(PAGES[name] for name in ("accuracy", "claims", "mechanism")).replace("+", "")
+    rows = re.findall(r"^\|.*\(`(?:accuracy|mechanism)\.md`(?:, \d)?\) \|$", PAGES["model"], re.M)
     rows = [row for row in rows if "tables `realisations`" not in row]
     quoted = re.findall(r"-?[\d.]+ \[-?[\d.]+, +-?[\d.]+\]", "".join([PAGES["README"], *rows]))
     assert len(quoted) >= 10

@@ -22,6 +22,7 @@ from studies import PAPER, ROOT, SCHEMA, TINY, Study
 
 WHOLE = {"configuration": ("config/config.yaml",)}
 FULL = {"configuration": ("config/full.yaml",)}
+SENSITIVE = {"n_p2": [4], "n_s2": [2], "direction": ["x"], "seeds": 2}
 
 #: Those of the study without its optional groups of scenes and without its tables of errors.
 FIGURES = {
@@ -100,11 +101,11 @@ def test_every_step_of_the_full_study_can_be_planned(study):
     elsewhere = ("--config", "results=elsewhere")
     steps = rules(study, *elsewhere, **FULL).keys()
     full = study.planned(*elsewhere, "--", *steps, **FULL).keys()
-    further = {"beyond", "production_table", "sweep_pressure", "sweep_scatter"}
+    further = {"mechanism", "production_table", "sweep_pressure", "sweep_scatter"}
     further |= {"reference_solutions"}
     assert {*steps, *further, *figures.FIGURES} - {"surfaces"} <= full
     named = set(re.findall(r"`(\w+)`", (ROOT / "docs/workflow.md").read_text()))
-    drawn = ("figure_", "supplement", "beyond_", "sweep_", "film_")
+    drawn = ("figure_", "supplement", "sweep_", "film_")
     assert {step for step in steps if not step.startswith(drawn)} <= named
 
 
@@ -180,7 +181,8 @@ def test_a_deleted_file_is_made_again_if_the_study_needs_it(study, springblock, 
 def test_the_record_names_all_parts_of_the_pages(study, tmp_path):
     """Also where nothing is to be done: no job of `fields` runs here."""
     study = study.copied(tmp_path / "study")
-    study.configure(accuracy=True, verification=True, mechanism="all")
+    sensitive = TINY["scenes"] | {"sensitivities": SENSITIVE}
+    study.configure(accuracy=True, verification=True, mechanism="all", scenes=sensitive)
     study.run("--", "fields")
     files = read_record(study.results)["files"]
     parts = {Path(file).parent.name for file in files}
@@ -188,7 +190,8 @@ def test_the_record_names_all_parts_of_the_pages(study, tmp_path):
     assert {f"accuracy/production-{scene}.parquet" for scene in conventions.SCENES} <= {*files}
     assert {f"mechanism/{part}.parquet" for each in TABLES.values() for part in each} <= {*files}
     assert {f"continuum/{part}.parquet" for part in continuum.PARTS} <= {*files}
-    assert {"accuracy.md", "mechanism.md", "continuum.md", "tables/stability.parquet"} <= {*files}
+    made = {"accuracy.md", "mechanism.md", "continuum.md", "tables/stability.parquet"}
+    assert made | {"tables/sensitivities.parquet"} <= {*files}
 
 
 def test_repair_compares_with_the_recorded_configuration(study, tmp_path):
@@ -237,7 +240,7 @@ def test_one_figure_needs_only_its_own_simulations(study):
 def test_the_quick_study_leaves_the_optional_groups_out(study):
     jobs = study.planned(configuration=("config/quick.yaml",))
     assert (jobs["prelude"], jobs["correlation"]) == (5, 4)
-    left_out = {"beyond", "production_table", "sweep_gaps", "sweep_size", "sweep_angle"}
+    left_out = {"mechanism", "production_table", "sweep_gaps", "sweep_size", "sweep_angle"}
     assert not left_out & jobs.keys()
 
 

@@ -18,6 +18,7 @@ from springblock.analysis.statistics import (
     load_peaks,
     mean_interval,
     mean_of_rest,
+    number,
     pillar_map,
     pillar_ring,
     prominence,
@@ -292,3 +293,11 @@ def test_the_interval_of_repeatability_is_the_jackknifes(rng):
 def test_an_event_ends_where_neighbours_detach_apart():
     times = np.array([[0.500, 0.504, 0.508, 0.600, 0.602], [0.5, 0.6, 0.7, 0.8, 0.9]])
     assert events(times).tolist() == events(times[:, ::-1]).tolist() == [2, 5]
+
+
+def test_numbers_are_written_to_what_the_interval_leaves():
+    assert number(Interval(*map(np.array, (0.12345, 0.1, 0.2)))) == "0.12 [0.10, 0.20]"
+    assert number(Interval(*map(np.array, (123.4, 110.0, 150.0))), " µm") == "123 [110, 150] µm"
+    assert number(Interval(*map(np.array, (-0.064, -0.13, 0.002)))) == "-0.064 [-0.130, 0.002]"
+    assert number(Interval(*map(np.array, (0.5, 0.0, 1.0)))) == "0.5 [0.0, 1.0]"
+    assert number(Interval(*map(np.array, (0.5, 0.5, 0.5))), " µm") == "0.5 µm"

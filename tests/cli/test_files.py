@@ -8,7 +8,6 @@ import pytest
 
 from springblock.analysis.comparison import differences
 from springblock.io.parquet import write
-from springblock.mechanism.surfaces import TABLES as PARTS
 from springblock.plotting.figures import FIGURES
 
 CONFIGURATION = ("--configuration", "0123")
@@ -50,7 +49,7 @@ CLAIMED = ("correlation", "correlation-length", "work-precision")
             for name in CLAIMED
         ),
         ("make", "accuracy", *["{file}"] * 4, "--output", "{here}/a.md"),
-        ("make", "mechanism", *["{file}"] * len(PARTS), "--output", "{here}/a.md"),
+        ("make", "mechanism", *["{file}"] * 3, "--output", "{here}/a.md"),
         ("plot", "{file}", "--output", "{here}/a.png"),
         ("animate", "{file}", "--output", "{here}/a.gif"),
         ("table", "{file}"),
@@ -142,7 +141,8 @@ OF_OTHER_TYPES = {
     ("aggregate", __file__, *CONFIGURATION): "all.npy",
     ("make", "stability"): "page.md",
     ("make", "collect", __file__): "table.csv",
-    ("make", "beyond", __file__): "page.parquet",
+    ("make", "mechanism", *[__file__] * 3): "page.parquet",
+    ("make", "sensitivities", __file__): "page.md",
     ("report", __file__): "report.pdf",
     ("dictionary",): "tables.parquet",
     ("figure", "figure_1"): "figure.jpg",

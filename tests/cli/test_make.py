@@ -10,8 +10,7 @@ from precision import tables
 from springblock.accuracy import solutions, stability
 from springblock.accuracy.stability.cases import Case, Outcome
 from springblock.accuracy.work_precision import rows_of
-from springblock.io.parquet import load, write
-from springblock.mechanism.surfaces import TABLES
+from springblock.io.parquet import load, origin_of, write
 from springblock.report.dictionary import kinds
 
 
@@ -62,14 +61,29 @@ def test_models_on_small_pillars_become_a_table(springblock, tmp_path, monkeypat
         assert row["simulation"] < 0.96 * row["quasi_static"]
 
 
-def test_the_tables_of_the_mechanism_become_a_page(springblock, tmp_path):
-    parts = (chapter.rows(), chapter.variants())
-    files = [tmp_path / str(number) for number in range(len(parts))]
-    for name, file, found in zip(TABLES, files, parts, strict=True):
-        write(as_table(name, found), file, {})
-    springblock("make", "mechanism", *files, "--output", tmp_path / "page")
-    text = " ".join((tmp_path / "page").read_text().split())
-    assert "20 (or 6)" in text
+def test_what_friction_depends_on_becomes_a_table_from_batches(springblock, batch, tmp_path):
+    grooves = ("--n-p2", 4, "--n-s2", 2)
+    batches = batch(0, 2, *grooves), batch(0, 2, *grooves, "--vary", "gamma=1e6")
+    output = tmp_path / "table.parquet"
+    springblock("make", "sensitivities", *batches, "--output", output, "--configuration", "12")
+    rows = load(output).to_pylist()
+    assert [(row["varied"], row["quantity"]) for row in rows] == [
+        ("", "prominence_whole"),
+        ("gamma", "prominence_whole"),
+    ]
+    assert origin_of(load(output))["configuration_digest"] == "12"
+
+
+def test_a_page_whose_sentences_its_tables_contradict_is_not_written(springblock, tmp_path):
+    """Friction of the simulation is lowest on pillars of 20 and 6 blocks here."""
+    tables = {"mechanism": chapter.rows(), "mechanism_damped": chapter.damped()}
+    tables["sensitivities"] = chapter.settings()
+    for name, rows in tables.items():
+        write(as_table(name, rows), tmp_path / name, {})
+    files = [tmp_path / name for name in tables]
+    said = springblock("make", "mechanism", *files, "--output", tmp_path / "a.md", refused=True)
+    assert "the tables contradict “Static friction is lowest on pillars of 20 (or 6)" in said
+    assert not (tmp_path / "a.md").exists()
 
 
 def test_an_error_is_the_root_mean_square_over_realisations():
@@ -91,13 +105,3 @@ def test_four_tables_become_the_page_on_errors(springblock, batch, tmp_path):
     files.insert(2, batch(0, 0))
     springblock("make", "accuracy", *files, "--output", tmp_path / "page.md")
     assert "| 4e-08 | 0.25 | " in (tmp_path / "page.md").read_text(encoding="utf-8")
-
-
-def test_questions_beyond_the_paper_are_answered_where_they_were_simulated(
-    springblock, batch, tmp_path
-):
-    page = tmp_path / "beyond.md"
-    grooves = [batch(0, 2, "--n-p2", 4, "--n-s2", 2, "--direction", way) for way in "xy"]
-    springblock("make", "beyond", *grooves, "--output", page)
-    text = page.read_text(encoding="utf-8")
-    assert "| 0 | 2 | 4 | " in text  # load peaks

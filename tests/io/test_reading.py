@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pyarrow as pa
@@ -10,7 +11,7 @@ import pytest
 
 from springblock import Setup, Surface, read, simulate
 from springblock.io.parquet import refuse_mixture, rows_to_table, write
-from springblock.io.records import read_records
+from springblock.io.records import by_scene, read_records
 from springblock.io.schemas import SCENE, SETUP
 from springblock.model.scene import Scene
 
@@ -105,3 +106,10 @@ def test_nothing_slow_is_imported_before_it_is_needed():
     assert loaded.returncode == 0, loaded.stderr
     slow = {"matplotlib", "numba", "pandas", "PIL", "pyarrow", "scipy", "tqdm"}
     assert not slow & set(loaded.stdout.split())
+
+
+def test_realisations_are_sorted_by_scene():
+    """Those on surfaces that the paper could not have are left out."""
+    scenes = [Scene(10), Scene(20), Scene(10), Scene(10, edges="periodic")]
+    found = by_scene(SimpleNamespace(scene=scene) for scene in scenes)
+    assert {scene: len(runs) for scene, runs in found.items()} == {Scene(10): 2, Scene(20): 1}

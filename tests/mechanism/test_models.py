@@ -8,15 +8,17 @@ import pytest
 from springblock import Material, Pattern, Setup, Surface, simulate
 from springblock.mechanism.elasticity import Layer, lattice_stiffness
 from springblock.mechanism.models import (
+    MODELS,
     independent,
     overshooting,
     quasi_static,
+    sticking,
     stress_variation,
 )
 from springblock.simulation.energy import elastic_energy
 
 MATERIAL = Material()
-MODELS = [independent, quasi_static, overshooting]
+ALL = pytest.mark.parametrize("model", MODELS.values(), ids=MODELS)
 
 
 def test_energy_of_small_displacements_is_that_of_all_springs(rng):
@@ -41,7 +43,7 @@ def test_blocks_without_contact_are_in_equilibrium(rng):
     assert force[bound] == pytest.approx(s * reduced.pull - reduced.stiffness @ slip)
 
 
-@pytest.mark.parametrize("model", MODELS)
+@ALL
 @pytest.mark.parametrize("n_blocks", [1, 4])
 def test_like_blocks_on_a_flat_surface_let_go_together(model, n_blocks):
     """The stress is even: friction is mu_s F_n on each block until the first one lets go."""
@@ -53,7 +55,7 @@ def test_like_blocks_on_a_flat_surface_let_go_together(model, n_blocks):
     assert stress_variation(flat) == pytest.approx(0.0, abs=1e-12)
 
 
-@pytest.mark.parametrize("model", MODELS)
+@ALL
 def test_the_force_is_the_pull_of_the_slider_along_its_way(model):
     """Edges of pillars are also pulled sideways, by free blocks."""
     layer = Layer(Pattern.pillars(12, 3, 3).contact, MATERIAL)
@@ -115,15 +117,16 @@ def test_load_is_transferred_as_the_equilibrium_of_all_sliding_blocks_demands(rn
     assert np.stack(curve, axis=1) == pytest.approx(np.array(found), rel=1e-9)
 
 
+@pytest.mark.parametrize(("model", "slip"), [(sticking, 1.0), (overshooting, 2.0)])
 @pytest.mark.parametrize(("mu_d", "threshold"), [(0.8, 1.9), (0.3, 5.0)])
-def test_a_block_that_overshoots_rests_at_half_of_its_stress(mu_d, threshold):
-    """It slips by 2 (mu_s - mu_d) F_n/(K + K_s), and its neighbour is loaded by K of that.
+def test_a_block_that_sticks_again_rests_at_mu_d_or_as_far_below(model, slip, mu_d, threshold):
+    """It slips by (mu_s - mu_d) F_n/(K + K_s), or twice that, and loads its neighbour by K of it.
 
-    Where mu_s > 2 mu_d, it is pushed back afterwards.
+    Where mu_s > 2 mu_d, a block that overshoots is pushed back afterwards.
     """
     static, dynamic = np.array([1.0, threshold]), np.array([mu_d, 1.5])
-    curve = overshooting(ROW, static, dynamic)
-    left, loaded = 2.0 * mu_d - 1.0, 1.0 + 2.0 * (1.0 - mu_d) * K / (K + K_S)
+    curve = model(ROW, static, dynamic)
+    left, loaded = 1.0 - slip * (1.0 - mu_d), 1.0 + slip * (1.0 - mu_d) * K / (K + K_S)
     until_again = 1.0 - left  # of the first, which feels K_s and a neighbour at rest
     until_second = threshold - loaded
     s = 1.0 + min(until_again, until_second)
@@ -144,7 +147,7 @@ def test_of_two_overloaded_blocks_that_with_the_largest_ratio_to_its_threshold_s
     assert curve.force[1] == pytest.approx(force.sum() + 0.1 * pull[:3].sum() + 1.1)
 
 
-@pytest.mark.parametrize("model", MODELS)
+@ALL
 def test_a_block_weaker_at_rest_than_in_motion_lets_go_at_the_larger(model):
     one = Layer(np.ones((1, 1), bool), MATERIAL)
     curve = model(one, np.array([0.5]), np.array([0.7]))

@@ -1,26 +1,32 @@
-"""The page on the mechanism has the numbers of its tables."""
+"""Values of the page on the mechanism."""
 
-import pandas as pd
 import pytest
 
-from mechanism.chapter import rows, variants
-from springblock.mechanism.page import page
+from mechanism import chapter
+from springblock.mechanism.page import values
 
 
-@pytest.mark.parametrize(
-    "number",
-    [
-        "20 (or 6)",
-        "0.3 % for n_p up to 6",
-        "8.3 %",
-        "0.30",
-        # what all models share from seed to seed leaves no interval of their differences
-        "| 6 | -8.3 [-8.3, -8.3] | -8.3 [-8.3, -8.3] | 0.2 [0.2, 0.2] |",
-        # on the thin layer the full model is lowest at 20 blocks, and only stress alone is there
-        "| l_z = 5 µm | 2, 6, 20 | 6 (0.30) | 20 | 6 | 6 | 20 (or 6) | 16.7 [16.6, 16.7] | -7.1 ",
-        "2.4 [2.4, 2.4] %",  # mean of -0.3, -0.2 and 7.7 %
-        "0.800 [0.798, 0.802]",
-    ],
-)
-def test_the_page_has_the_numbers_of_its_tables(number):
-    assert number in page(pd.DataFrame(rows()), pd.DataFrame(variants()))
+@pytest.fixture(scope="module")
+def found():
+    """Values from tables made up."""
+    return values(chapter.rows(), chapter.damped(), chapter.settings())
+
+
+def test_changes_are_those_from_one_model_to_the_next_in_percent(found):
+    assert found["change"]["sticking"][6].mean == pytest.approx(100.0 * (0.8 / 0.65 - 1.0), 1e-4)
+    assert found["change"]["simulation"][20].mean == pytest.approx(-7.7, abs=0.1)
+    assert str(found["minimum"]["simulation"]) == "20 (or 6)"
+
+
+def test_damped_runs_are_compared_with_load_transfer_seed_by_seed(found):
+    """The drag is gamma m v/(P l²) = 1e7/s 1.2e-12 kg 5e-4 m/s / 5e-6 N."""
+    damped = found["damped"][1e7]
+    assert damped["drag"] == pytest.approx(1.2e-3)
+    assert damped["excess"][6] == pytest.approx([0.01] * 3)
+    assert damped["minimum"].place == 6
+
+
+def test_settings_have_free_edges_unless_these_are_varied(found):
+    assert [*found["settings"]] == [("", ""), ("gamma", "1e+06 1/s"), ("edges", "periodic")]
+    assert found["settings"]["gamma", "1e+06 1/s"]["size"].mean == pytest.approx(6.01)
+    assert found["peaks"]["periodic", 1e6]["prominence"] == pytest.approx([0.06, 0.03, 0.09])

@@ -47,7 +47,7 @@ def test_a_dry_run_loads_nothing_that_draws():
     script += "import sys; print(*sys.modules)"
     loaded = subprocess.check_output([sys.executable, "-c", script], text=True).split()
     assert "springblock.plotting.figures" in loaded
-    assert not {"matplotlib", "pandas", "scipy", "seaborn"} & {*loaded}
+    assert not {"matplotlib", "pandas", "scipy"} & {*loaded}
 
 
 def test_figures_whose_groups_are_left_out_are_no_part_of_a_study():

@@ -27,8 +27,6 @@ from matplotlib.ticker import FixedLocator
 from scipy.io import netcdf_file
 
 import precision
-from beyond.made_up import grooves, lattices, sizes_and_distances
-from beyond.test_scatter import scattered
 from claims import paper
 from mechanism import chapter
 from plotting.test_every_figure import DRAWINGS, drawn
@@ -38,8 +36,6 @@ from springblock.accuracy.conventions import SAMPLE_INTERVAL, SCENES
 from springblock.accuracy.page import values
 from springblock.accuracy.solutions import Small
 from springblock.accuracy.stability import all_cases
-from springblock.beyond.page import QUESTIONS
-from springblock.beyond.page import page as questions
 from springblock.claims import STATEMENTS
 from springblock.claims.table import rows as judged
 from springblock.cli import main
@@ -49,7 +45,7 @@ from springblock.io.parquet import write
 from springblock.io.records import Record
 from springblock.io.rows import Row
 from springblock.io.schemas import SUMMARY
-from springblock.mechanism.page import page as mechanism
+from springblock.mechanism import page as mechanism
 from springblock.mechanism.surfaces import TABLES
 from springblock.model.scene import Scene
 from springblock.pages import rendered
@@ -87,20 +83,6 @@ def pages() -> str:
         if line.startswith("|") and NUMBER.search(line)
     ]
     return "\n".join(lines) + "\n"
-
-
-def beyond() -> str:
-    """Answers to each question, and the page, on ensembles of 10 to 25 realisations each."""
-    made = {
-        "lattice": lattices(lambda *_: 30.0, lambda x, l_z, s: 8.0 * l_z if s else 8.0 * x, 10),
-        "peaks": grooves({"x": 0.95, "30": 0.97, "y": 0.92}, runs=10, scatter=0.01)
-        | grooves({"x": 0.93, "y": 0.95}, 22, runs=10, scatter=0.01),
-        "friction": sizes_and_distances(lambda n, r: 0.6 + 0.05 * np.log(n / 6.0) ** 2 - 0.1 * r),
-        "scatter": scattered(lambda std: 0.2 / std),
-    }
-    alone = ("\n\n".join(QUESTIONS[name].answers(some)) for name, some in made.items())
-    together = {scene: runs for some in made.values() for scene, runs in some.items()}
-    return "\n\n".join([*alone, questions(together)]) + "\n"
 
 
 def uneven(rows: list[Row], *columns: str) -> list[Row]:
@@ -211,7 +193,9 @@ def fields() -> str:
 
 
 def reasons() -> str:
-    return mechanism(pd.DataFrame(chapter.rows()), pd.DataFrame(chapter.variants()))
+    """Values of the page on the mechanism."""
+    found = mechanism.values(chapter.rows(), chapter.damped(), chapter.settings())
+    return "\n".join(f"| {name} | {value}" for name, value in found.items()) + "\n"
 
 
 def plans() -> str:
@@ -324,7 +308,8 @@ def jobs() -> str:
     with tempfile.TemporaryDirectory() as name:
         everything = {"accuracy": True, "verification": True, "mechanism": "all"}
         watched = {"flat": TINY["scenes"]["flat"] | {"snapshot_times": [1e-5]}}
-        scenes = TINY["scenes"] | watched
+        sensitive = {"sensitivities": {"n_p2": [4], "n_s2": [2], "direction": ["x"], "seeds": 2}}
+        scenes = TINY["scenes"] | watched | sensitive
         tiny = Study.begun(Path(name) / "study", scenes=scenes, **everything)
         said = tiny.run("--dry-run", "--printshellcmds", "--quiet", "host")
     found = re.findall(r"^Shell command: (.*(?:\n {4,}.*)*)", said, re.MULTILINE)
@@ -388,7 +373,7 @@ def shown(ax: Axes) -> Iterator[tuple[str, np.ndarray]]:
         yield "images", np.reshape(image.get_extent(), (2, 2))
 
 
-PAGES = {"accuracy": accuracy, "beyond": beyond, "mechanism": reasons}
+PAGES = {"accuracy": accuracy, "mechanism": reasons}
 TEXTS: dict[str, Callable[[], str]] = {
     "accuracy.csv": errors_measured,
     "cases.csv": cases,

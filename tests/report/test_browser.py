@@ -25,7 +25,7 @@ WIDTHS = pytest.mark.parametrize("width", [1280, 390])
 def whole(study, tmp_path_factory):
     """A report of the tiny study with those pages, too, that only a whole study has."""
     results, output = study / "results", tmp_path_factory.mktemp("report") / "report.html"
-    pages = [results / "claims.md", ROOT / "docs/accuracy.md", ROOT / "docs/beyond.md"]
+    pages = [results / "claims.md", ROOT / "docs/accuracy.md", ROOT / "docs/mechanism.md"]
     figures, tables = (sorted(results.glob(kind)) for kind in ("figures/*.png", "tables/*.parquet"))
     run, film = next(results.glob("realisations/**/*.parquet")), results / "films/flat.mp4"
     files = map(str, [*figures, *tables, *pages, "--film", film, run, "--output", output])
@@ -37,7 +37,16 @@ def whole(study, tmp_path_factory):
 def test_every_part_of_the_report_is_shown(whole, opened, width):
     page = opened(whole, width)
     names = page.locator("nav a").evaluate_all("links => links.map((a) => a.hash.slice(1))")
-    expected = ["findings", "means", "figures", "claims", "accuracy", "beyond", "films", "tables"]
+    expected = [
+        "findings",
+        "means",
+        "figures",
+        "claims",
+        "mechanism",
+        "accuracy",
+        "films",
+        "tables",
+    ]
     assert names == expected
     for name in names:
         page.locator(f"nav a[href='#{name}']").click()

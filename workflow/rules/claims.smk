@@ -1,4 +1,4 @@
-# Verdicts on the paper's statements, and questions beyond the paper.
+# Verdicts on the paper's statements.
 
 #: Groups whose realisations test the statements.
 GROUPS_CLAIMED = ["flat", "pillars", "small_pillars", "grooves", "angles", "third_level"]
@@ -59,24 +59,3 @@ rule claims:
         "Writing the page on the paper's statements"
     shell:
         "springblock --code {params.code} make claims {input:q} --output {output:q} > {log:q} 2>&1"
-
-
-rule beyond:
-    """Answer questions beyond the paper."""
-    input:
-        batches(ensembles([*GROUPS_CLAIMED, *GROUPS_BEYOND])),
-    output:
-        f"{RESULTS}/beyond.md",
-    log:
-        f"{RESULTS}/logs/beyond.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/beyond.tsv"
-    resources:
-        mem_mb=5000,
-        runtime=10,
-    params:
-        code=code("beyond.md"),
-    message:
-        "Answering questions beyond the paper"
-    shell:
-        "springblock --code {params.code} make beyond {input:q} --output {output:q} > {log:q} 2>&1"

@@ -3,7 +3,7 @@
 #: Scenes whose pillars have sides, with the several realisations that c(r) needs.
 WITH_SIDES = [
     each.scene.folder
-    for each in ENSEMBLE.values()
+    for each in ensembles(group for group in ENSEMBLES if group != "sensitivities")
     if not OWN and each.scene.sides and len(each.seeds) > 1
 ]
 #: Tables of correlations, and those of each scene.

@@ -8,9 +8,6 @@ from springblock.plotting.lines import axes
 #: Groups of scenes from which figures are drawn.
 SHOWN = study.for_figures(config, ENSEMBLES)
 SCENES = {group: [each.scene for each in members] for group, members in SHOWN.items()}
-#: Groups for the questions beyond the paper.
-GROUPS_BEYOND = ["lattice", "disorder", "layer", "peaks", "friction", "scatter"]
-GROUPS_BEYOND = [group for group in GROUPS_BEYOND if SHOWN.get(group)]
 #: Declarations of those figures whose groups of scenes and tables the study has.
 FIGURES = {
     name: figure

@@ -58,10 +58,34 @@ MODEL_PARTS = expand(
 )
 
 
+rule sensitivities_table:
+    """Collect what friction and load peaks depend on."""
+    input:
+        batches(ensembles(["sensitivities"])),
+    output:
+        f"{RESULTS}/tables/sensitivities.parquet",
+    log:
+        f"{RESULTS}/logs/sensitivities_table.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/sensitivities_table.tsv"
+    resources:
+        mem_mb=3000,
+        runtime=5,
+    params:
+        code=code("mechanism"),
+        configuration=CONFIGURATION,
+    message:
+        "Collecting what friction and load peaks depend on"
+    shell:
+        "springblock --code {params.code} make sensitivities {input:q} "
+        "--configuration {params.configuration} --output {output:q} > {log:q} 2>&1"
+
+
 rule mechanism:
     """Explain the lowest friction and two load peaks."""
     input:
         expand(rules.mechanism_table.output, table=TABLES),
+        rules.sensitivities_table.output,
     output:
         f"{RESULTS}/mechanism.md",
     log:
@@ -77,3 +101,8 @@ rule mechanism:
         "Explaining the lowest friction"
     shell:
         "springblock --code {params.code} make mechanism {input:q} --output {output:q} > {log:q} 2>&1"
+
+
+#: The table of sensitivities and the page, if the study has their groups and tables.
+SENSITIVE = rules.sensitivities_table.output if ENSEMBLES.get("sensitivities") else []
+EXPLAINED = rules.mechanism.output if SENSITIVE and config["mechanism"] == "all" else []

@@ -46,9 +46,8 @@ rule report:
             if config["accuracy"]
             else []
         ),
-        mechanism=[MODELS, rules.mechanism.output if config["mechanism"] == "all" else []],
+        mechanism=[MODELS, SENSITIVE, EXPLAINED],
         continuum=CONTINUUM[-2:],
-        beyond=rules.beyond.output if GROUPS_BEYOND else [],
         glossary=[] if OWN or not Path(GLOSSARY).exists() else GLOSSARY,
         films=FILMED,
         runs=[batches([shown])[0] for shown in FILMS.values()],

@@ -1,6 +1,6 @@
 """Where static friction is lowest, with the uncertainty of the position."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from springblock.analysis.statistics import difference_interval
@@ -33,8 +33,3 @@ def lowest(samples: Mapping[Any, Array]) -> Lowest:
     apart = {place: difference_interval(each, samples[best]) for place, each in samples.items()}
     alike = [place for place, found in apart.items() if place == best or not found.low > BIAS]
     return Lowest(best, alike)
-
-
-def are_apart(minima: Iterable[Lowest]) -> bool:
-    """Return whether no position is common to all minima."""
-    return not set.intersection(*(set(each.alike) for each in minima))

@@ -10,7 +10,7 @@ from springblock.cli.options import INPUT, Output, check_type, code_version, loa
 from springblock.continuum import PARTS
 from springblock.files import write_text
 from springblock.io.parquet import load, origin_of, read, rows_to_table, write
-from springblock.io.records import by_scene, read_records
+from springblock.io.records import read_records
 from springblock.mechanism.surfaces import TABLES
 
 MEASURED = ["stability", "reference"]
@@ -23,14 +23,14 @@ PAGES = {
     "claims": ("claims.summary", ("claims",)),
     "continuum": ("continuum.page", ("continuum",)),
     "findings": ("report.findings", ("claims", "realisations")),
+    "mechanism": ("mechanism.page", (*TABLES, "sensitivities")),
 }
 #: Inputs of each name: description, smallest and largest number.
 INPUTS = {
     **dict.fromkeys(MEASURED, ("no inputs", 0, 0)),
     "collect": ("tables of equal columns", 1, None),
+    "sensitivities": ("batches of realisations", 1, None),
     **{name: (f"the tables {', '.join(of)}", len(of), len(of)) for name, (_, of) in PAGES.items()},
-    "mechanism": (f"the tables {', '.join(TABLES)}", len(TABLES), len(TABLES)),
-    "beyond": ("batches of realisations", 1, None),
 }
 _ENSEMBLES = "Of the ensembles of `production-SCENE`."
 
@@ -38,7 +38,7 @@ _ENSEMBLES = "Of the ensembles of `production-SCENE`."
 @click.command("make", epilog=f"Names: {', '.join(INPUTS)}.")
 @click.argument("name", type=click.Choice(list(INPUTS)), metavar="NAME")
 @click.argument("inputs", type=INPUT, nargs=-1)
-@click.option("--configuration", help="Digest of the configuration, for `collect`.")
+@click.option("--configuration", help="Digest of the configuration.")
 @click.option("--seeds", type=click.IntRange(2), default=10, show_default=True, help=_ENSEMBLES)
 @click.option("--finest-step", type=float, default=1e-8, show_default=True, help=_ENSEMBLES)
 @click.option(
@@ -64,22 +64,24 @@ def make(
       mechanism-N_P      simpler models on pillars (likewise on other surfaces)
     From INPUTS:
       collect            one table, from tables of equal columns made by the same code
+      sensitivities      what friction and load peaks depend on, from batches
       accuracy           page on errors, from the tables work_precision, stability,
                          realisations and production
       claims             page on the paper's statements, from their table
       findings           findings of the full study, from the tables claims and realisations
       mechanism          page on static friction, from its tables
       continuum          page on the continuum limit, from its table
-      beyond             page on questions beyond the paper, from batches
     """
     wanted, least, most = INPUTS[name]
     if len(inputs) < least or (most is not None and len(inputs) > most):
         raise ValueError(f"{name}: {len(inputs)} files given; give {wanted}")
-    check_type(output, ".parquet" if name in (*MEASURED, "collect") else ".md")
+    check_type(output, ".md" if name in PAGES else ".parquet")
     if name in MEASURED:
         _measure(name, seeds, finest_step, output)
     elif name == "collect":
         _collect(inputs, configuration, output)
+    elif name == "sensitivities":
+        _sensitivities(inputs, configuration, output)
     else:
         write_text(output, _page(name, inputs))
 
@@ -122,20 +124,25 @@ def _collect(tables: tuple[Path, ...], configuration: str | None, output: Path) 
     write(read(tables, first.schema.remove_metadata()), output, metadata)
 
 
+def _sensitivities(batches: tuple[Path, ...], configuration: str | None, output: Path) -> None:
+    """Write what friction and load peaks depend on."""
+    from springblock.mechanism.sensitivities import SENSITIVITIES, sensitivities
+
+    table = rows_to_table(list(sensitivities(read_records(batches))), SENSITIVITIES)
+    metadata = {"code_version": code_version("mechanism")}
+    if configuration is not None:
+        metadata["configuration_digest"] = configuration
+    write(table, output, metadata)
+
+
 def _page(name: str, files: tuple[Path, ...]) -> str:
     """Return the text of a page."""
-    if name in PAGES:
-        from springblock.pages import rendered  # needs the packages of the study
+    from springblock.pages import rendered  # needs the packages of the study
 
-        place, kinds = PAGES[name]
-        values = resolve_name(f"springblock.{place}:values")
-        rows = (load_as(kind, file).to_pylist() for kind, file in zip(kinds, files, strict=True))
-        return rendered(f"{name}.md", **values(*rows))
-    page = resolve_name(f"springblock.{name}.page:page")
-    if name == "beyond":
-        return page(by_scene(read_records(files)))
-    tables = [load_as(kind, file) for kind, file in zip(TABLES, files, strict=True)]
-    return page(*(table.to_pandas() for table in tables))
+    place, kinds = PAGES[name]
+    values = resolve_name(f"springblock.{place}:values")
+    rows = (load_as(kind, file).to_pylist() for kind, file in zip(kinds, files, strict=True))
+    return rendered(f"{name}.md", **values(*rows))
 
 
 @click.command("report")

@@ -30,7 +30,8 @@ FRICTION = pa.schema(
             "before any slip",
             independent="static friction without load transfer",
             quasi_static="static friction with load transfer, without inertia",
-            overshooting="static friction with load transfer, overshoot and sticking",
+            sticking="static friction with load transfer, if blocks stick again and heal",
+            overshooting="static friction with load transfer, sticking and overshoot",
             simulation="static friction in the simulation",
         ),
     ]
@@ -60,7 +61,7 @@ def friction_rows(surface: Scene) -> Iterator[Row]:
             "seed": seed,
             "simulation": run.static_friction,
             **{
-                model.__name__: model(layer, *forces).force.max() / normal_force
-                for model in (models.independent, models.quasi_static, models.overshooting)
+                name: model(layer, *forces).force.max() / normal_force
+                for name, model in models.MODELS.items()
             },
         }

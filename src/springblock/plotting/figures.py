@@ -170,14 +170,14 @@ FIGURES: dict[str, Declaration] = {
         marks="""Refused cases are beyond the stability limit.""",
     ),
     "mechanism_friction": Declaration(
-        title="Stress, load transfer and overshoot",
+        title="Stress, load transfer, healing and overshoot",
         module="mechanism",
         caption="""a-d) Stress on the blocks of a pillar before any slip, over its mean, in a layer
         pulled along x; e) its standard deviation over its mean, over all contact blocks; f) static
         friction of independent blocks under this stress, of blocks with quasi-static load transfer,
-        of blocks that overshoot and stick again, and of the full model. e), f) Against
-        pillar size, on surfaces of 40 to 60 blocks a side with n_s = n_p; the same 10 seeds for
-        each.""",
+        of blocks that stick again and heal, of blocks that overshoot as well, and of the full
+        model. e), f) Against pillar size, on surfaces of 40 to 60 blocks a side with n_s = n_p; the
+        same 10 seeds for each.""",
         draws="tables",
         tables=("mechanism",),
         marks=f"""e) Exact values. f) Symbols: means; bars:
@@ -196,49 +196,18 @@ FIGURES: dict[str, Declaration] = {
         marks="""Lines: theory, without a fit; symbols: simulation, open where the layer is not 10
         µm thick.""",
     ),
-    "beyond_lattice": Declaration(
-        title="Lattice or layer",
-        module="beyond",
-        caption="""a) Correlation of detachment times along the sides of the largest pillars,
-        sliding along x, on lattices of different spacing l, at constant thickness l_z and sizes in
-        metres. b) Decay length l_d of A exp(-r/l_d) on these pillars against the spacing, against
-        the spacing at equal disorder per area, and against l_z. Static friction against pillar size
-        for c) different l and d) different l_z.""",
-        groups=("lattice", "disorder", "layer"),
-        keys=("folder",),
-        marks="""Bands and bars: 95 % intervals over realisations. b) Grey lines: slopes 0 and 1.
-        c), d) Crosses at the bottom: size of the lowest mean; their bars: sizes whose mean may be
-        within the numerical bias, 0.001, of it.""",
-    ),
-    "beyond_disorder": Declaration(
-        title="Scatter of thresholds",
-        module="beyond",
-        caption="""a) Decay length l_d of A exp(-r/l_d) against the standard deviation of the static
-        coefficients, for pillar sizes n_p. b) Static friction against n_p for each standard
-        deviation.""",
-        groups=("pillars", "scatter"),
-        keys=("folder",),
-        marks="""Bars: 95 % intervals over realisations.""",
-    ),
-    "beyond_friction": Declaration(
-        title="Size of pillars and contact fraction",
-        module="beyond",
-        caption="""Static friction at constant total load: a) by size n_p and distance n_s of
-        pillars; b) against n_p for each contact fraction.""",
-        groups=("friction",),
-        keys=("folder",),
-        marks=f"""a) Colours: means; grey lines: constant contact fraction. b) Symbols: means; bars:
-        {INTERVALS}.""",
-    ),
-    "beyond_peaks": Declaration(
-        title="Load peaks by groove width and direction",
-        module="beyond",
-        caption="""Mean prominence of the second most prominent load peak in percent of the largest
-        force, by angle between sliding direction and grooves and by pawl width n_p2; grooves on
-        pillars (left) and over the whole surface (right), narrow (above) and wide (below).""",
-        groups=("peaks",),
-        keys=("folder",),
-        marks="""A prominence cannot be negative: the small values of light cells arise by
-        chance.""",
+    "mechanism_sensitivities": Declaration(
+        title="What friction and load peaks depend on",
+        module="mechanism",
+        caption="""a) Size of pillars n_p of lowest static friction, b) friction on the largest
+        pillars minus that, c) t_max - t_avg on pillars of 6 blocks and d) prominence of the second
+        load peak over the largest force, on pawls of 8 blocks that slide along their grooves; with
+        the paper's surfaces and constants, and with one thing changed at a time, by a ratio or to
+        the value given.""",
+        groups=("sensitivities",),
+        draws="tables",
+        tables=("sensitivities",),
+        marks=f"""a) Bars: sizes that may have the lowest friction. b-d) Symbols: means; bars:
+        {INTERVALS}. Dotted lines: the paper's surfaces.""",
     ),
 }

@@ -1,4 +1,4 @@
-"""Figure of the mechanism: stress before slip, and friction by model."""
+"""Figures of the mechanism: stress before slip, friction by model, and sensitivities."""
 
 from collections.abc import Sequence
 
@@ -13,18 +13,29 @@ from springblock.mechanism.surfaces import TABLES
 from springblock.model.material import Material
 from springblock.model.numbers import Array
 from springblock.plotting import style
-from springblock.plotting.curves import FRICTION, draw_means, name_places
+from springblock.plotting.curves import BAR, FRICTION, LAG, draw_means, name_places
 from springblock.plotting.maps import draw_map
-from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, VERMILION, Look, color_bar
+from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, PURPLE, VERMILION, Look, color_bar
 
 _SHOWN = (3, 6, 10, 20)  #: n_p of the pillars whose stress is mapped
 _COLORS = "cividis"
 _LOOKS: dict[str, Look] = {
     "independent": {"color": BLUE, "marker": "s", "linestyle": ":"},
     "quasi_static": {"color": GREEN, "marker": "^", "linestyle": "-."},
+    "sticking": {"color": PURPLE, "marker": "v", "linestyle": (0, (4, 1, 1, 1, 1, 1))},
     "overshooting": {"color": VERMILION, "marker": "D", "linestyle": "--"},
     "simulation": {"color": BLACK, "marker": "o"},
 }
+#: Quantities of the sensitivities, their axes and the factors to the units of these.
+_QUANTITIES = {
+    "size": ("$n_p$ of lowest friction", 1.0),
+    "depth": ("depth of the minimum", 1.0),
+    "lag": (LAG, style.MICRO),
+    "prominence": ("prominence of the\nsecond load peak (%)", style.PERCENT),
+}
+_SYMBOLS = {"": "paper", "l_z": "$l_z$", "mu_s - mu_d": r"$\mu_s - \mu_d$", "v": "$v$", "P": "$P$"}
+_SYMBOLS |= {"K_s": "$K_s$", "gamma": r"$\gamma$ ="}
+_GAP = 0.7  #: between rows of different kinds, over the distance of rows
 
 
 def mechanism_friction(table: pd.DataFrame) -> Figure:
@@ -43,6 +54,31 @@ def mechanism_friction(table: pd.DataFrame) -> Figure:
     for ax in (uneven, friction):
         name_places(ax, table["n_p"])
         ax.set_xlabel("size of pillars $n_p$ (blocks)")
+    low, high = friction.get_ylim()
+    friction.set_ylim(low, high + 0.3 * (high - low))  # room for the legend
+    return picture
+
+
+def mechanism_sensitivities(table: pd.DataFrame) -> Figure:
+    """Draw a) the size of lowest friction, b) its depth, c) t_max - t_avg, d) prominence."""
+    picture, panels = style.panels(style.DOUBLE, 130.0, "abcd", sharey=True)
+    shown = table[(table["edges"] == "free") | (table["varied"] == "edges")]
+    rows = list(dict.fromkeys(zip(shown["varied"], shown["value"], strict=True)))
+    kinds = list(dict.fromkeys(varied for varied, _ in rows))
+    places = {row: i + _GAP * kinds.index(row[0]) for i, row in enumerate(rows)}
+    for ax, (quantity, (label, factor)) in zip(panels, _QUANTITIES.items(), strict=True):
+        part = shown[shown["quantity"] == quantity]
+        means, low, high = factor * part[["mean", "mean_low", "mean_high"]].to_numpy().T
+        at = [places[row] for row in zip(part["varied"], part["value"], strict=True)]
+        bars = np.array([means - low, high - means])
+        ax.errorbar(means, at, xerr=bars, color=BLACK, marker="o", linestyle="none", **BAR)
+        ax.axvline(means[at.index(0.0)], color=GREY, linewidth=0.5, linestyle=":", zorder=0)
+        ax.set_xlabel(label)
+    names = [f"{_SYMBOLS.get(varied, varied)} {value}" for varied, value in rows]
+    panels[0].set_yticks(list(places.values()), names)
+    name_places(panels[0], table.loc[table["quantity"] == "size", "mean"])
+    panels[0].margins(y=0.03)
+    panels[0].invert_yaxis()
     return picture
 
 

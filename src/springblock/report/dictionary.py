@@ -49,6 +49,7 @@ def kinds() -> dict[str, tuple[str, pa.Schema]]:
     from springblock.claims import table as claims
     from springblock.continuum import cases as continuum
     from springblock.mechanism import tables as mechanism
+    from springblock.mechanism.sensitivities import SENSITIVITIES
 
     return {
         "batches": ("a realisation, with its curves and maps", pa.schema([*BATCH, *SNAPSHOTS])),
@@ -59,10 +60,8 @@ def kinds() -> dict[str, tuple[str, pa.Schema]]:
         "work_precision": ("an error at one step", work_precision.SCHEMA),
         "production": ("an error with N = 120 at one step", production.SCHEMA),
         "mechanism": ("a seed on pillars of one size", mechanism.FRICTION),
-        "mechanism_variants": (
-            "a seed on a flat surface, or on pillars with other gaps or constants",
-            mechanism.FRICTION,
-        ),
+        "mechanism_damped": ("a seed on pillars of one size, strongly damped", mechanism.FRICTION),
+        "sensitivities": ("a quantity in one setting", SENSITIVITIES),
         "continuum": ("a unit cell of one stripe or pillar", continuum.CELLS),
         "stability": ("a stiff or extreme case", stability.SCHEMA),
     }

@@ -22,7 +22,7 @@ from springblock.report import markup, media
 from springblock.report.findings import FILE
 
 #: Parts of the page in their order, before further pages.
-ORDER = ("figures", "claims", "mechanism", "continuum", "accuracy", "beyond", "glossary")
+ORDER = ("figures", "claims", "mechanism", "continuum", "accuracy", "glossary")
 MODEL = "figure_1"  #: the picture of the method
 OBSERVED = ("static_friction", "t_max", "t_avg")  #: whose means the page shows
 _HERE = Path(__file__).parent

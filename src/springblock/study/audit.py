@@ -23,7 +23,8 @@ _FOLDERS |= dict.fromkeys(("tables", "figures", "films"), "")
 #: Steps that make tables, by the first word of their names.
 _TABLES = {"realisations": "simulate", "correlation": "analyse", "work": "accuracy"}
 _TABLES |= {"production": "accuracy", "stability": "accuracy"}
-_TABLES |= {"mechanism": "mechanism", "continuum": "continuum", "claims": "claims"}
+_TABLES |= dict.fromkeys(("mechanism", "sensitivities"), "mechanism")
+_TABLES |= {"continuum": "continuum", "claims": "claims"}
 #: Name of a file that was being written when its job was killed, see `files.whole_file`.
 _PARTIAL = re.compile(r"\..+\.[0-9a-f]{32}")
 

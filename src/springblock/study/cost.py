@@ -11,7 +11,7 @@ _RATE = {"leapfrog": 4.5e-9, "rk4": 33e-9}
 #: CPU seconds of jobs of config/full.yaml: until a simulation begins, its work as a share of
 #: `cpu_seconds`, and those of other jobs by their rule.
 _BEGIN, _SHARE, _OTHER = 1.5, 0.42, 3.0
-_MEASURED = {"compile": 15.0, "report": 10.0, "claims_table": 45.0, "beyond": 45.0}
+_MEASURED = {"compile": 15.0, "report": 10.0, "claims_table": 45.0}
 _MEASURED |= {"compare_scene": 100.0, "stability_table": 12.0, "mechanism_part": 5.0}
 _MEASURED |= {"continuum_part": 120.0}
 _START = 10.0  #: s to start a job on a busy machine
