@@ -1,6 +1,5 @@
 """Files that are damaged, foreign or outdated: noticed before a number of them is used."""
 
-import copy
 import json
 from functools import partial
 
@@ -26,10 +25,8 @@ from faults.damages import (
 from specimens import uniform
 from springblock import simulate, write_fields
 from springblock.cli import main
-from springblock.cli.results import _is_sound
 from springblock.files import read_sealed
 from springblock.provenance import code_version
-from springblock.simulation.prelude import Prelude
 from springblock.study import record
 from springblock.study.audit import faults
 
@@ -131,15 +128,6 @@ def test_a_missing_file_is_named(study):
     assert f"{study.results}/report.html is missing; `snakemake` makes it" in said
 
 
-def test_nothing_is_verified_where_there_is_no_study(springblock, tmp_path):
-    for folder in (tmp_path, "/etc"):
-        for command in ("verify", "repair"):
-            said = springblock(command, folder, refused=True)
-            assert said == (
-                f"Error: {folder} is not a folder of results of a study: it has no study.json"
-            )
-
-
 def test_tables_of_either_study_alone_are_named(study, tmp_path):
     other = study.copied(tmp_path / "other")
     (study.results / TABLE).unlink()
@@ -158,16 +146,6 @@ def test_a_file_that_is_set_aside_again_replaces_no_other(study, springblock):
     assert aside.read_bytes() == b"once"
     assert aside.with_name(f"{aside.name}.again").read_bytes() == b"twice"
     assert aside.with_name(f"{aside.name}.again.again").read_bytes() == b"thrice"
-
-
-def test_files_are_compared_with_the_last_configuration_of_a_study(study):
-    """A study that grew had another one before."""
-    file = study.results / "study.json"
-    made = json.loads(file.read_text())
-    before = copy.deepcopy(made["made"][-1])
-    before["configuration"]["material"]["gamma"] = 4e3
-    file.write_text(json.dumps(made | {"made": [before, *made["made"]]}))
-    assert not list(faults(study.results))
 
 
 def test_every_file_of_numbers_is_checked(study):
@@ -211,14 +189,6 @@ def test_a_batch_with_a_seed_missing_is_not_aggregated(study, springblock, tmp_p
     assert said == "Error: 2 realisations in the batches; expected 3"
 
 
-def test_companions_that_other_systems_leave_beside_tables_are_passed_over(study, capsys):
-    (study.results / "tables/._realisations.parquet").write_bytes(b"of another system")
-    _is_sound(study.results, study.results)
-    said = capsys.readouterr().out
-    assert "tables/realisations.parquet: the same" in said
-    assert "._realisations" not in said
-
-
 def test_each_flipped_bit_of_a_batch_is_noticed(study, rng):
     """Also in the footer, which Parquet's own checksums leave out."""
     file = study.results / BATCH
@@ -230,30 +200,3 @@ def test_each_flipped_bit_of_a_batch_is_noticed(study, rng):
         file.write_bytes(changed)
         with pytest.raises(ValueError, match=r"damaged|checksum"):
             read_sealed(file)
-
-
-def test_no_flipped_bit_of_a_prelude_changes_a_number(study, rng):
-    """The archive's own checksums see what matters; a date in it may change unseen."""
-    file = study.results / PRELUDE
-    content, whole = file.read_bytes(), Prelude.read(file)
-    for place in rng.integers(len(content), size=500):
-        changed = bytearray(content)
-        changed[place] ^= 1 << int(rng.integers(8))
-        file.write_bytes(changed)
-        try:
-            found = Prelude.read(file)
-        except ValueError:
-            continue
-        for name, values in vars(whole).items():
-            np.testing.assert_array_equal(getattr(found, name), values)
-
-
-@pytest.mark.parametrize("place", [BATCH, PRELUDE])
-def test_each_truncation_is_noticed(study, rng, place):
-    file = study.results / place
-    content = file.read_bytes()
-    read = Prelude.read if file.suffix == ".npz" else read_sealed
-    for length in (0, *rng.integers(len(content), size=200), len(content) - 1):
-        file.write_bytes(content[:length])
-        with pytest.raises(ValueError, match=r"damaged|checksum"):
-            read(file)
