@@ -32,6 +32,12 @@ def test_rows_that_describe_the_same_are_compared_in_their_order():
     assert differences(one, one.slice(0, 1)) == ["1 row in both, 2 only in the first"]
 
 
+def test_curves_of_other_lengths_are_differences():
+    one, other = (pa.table({"seed": [1], "force": [[0.0, 1.0][:n]]}) for n in (2, 1))
+    [_, apart] = differences(one, other)
+    assert "force: 1 row differs" in apart
+
+
 def test_cpu_times_make_no_difference():
     """No study repeats them."""
     one, other = (

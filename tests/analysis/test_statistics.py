@@ -28,7 +28,7 @@ from springblock.analysis.statistics import (
     standard_error,
     whole_curve,
 )
-from springblock.simulation.run import friction, percent
+from springblock.simulation.run import friction
 
 
 def run(samples=21, normal_force=2.0, **more):
@@ -162,13 +162,6 @@ def test_bins_hold_whole_samples_and_every_detachment_once():
     edges, shares = whole_curve([run(12)]).binned(0.1)  # finer than the samples
     np.testing.assert_allclose(edges, 0.5 * np.arange(12))
     assert shares.sum() == 100.0
-
-
-def test_percentages_are_of_the_blocks_that_detach_in_the_run():
-    run = SimpleNamespace(
-        contact=np.ones((2, 2), bool), t_det=np.array([[1.0, 2.0], [np.nan, 2.0]])
-    )
-    assert percent(run, np.array([0, 1, 2])) == pytest.approx([0.0, 100.0 / 3.0, 200.0 / 3.0])
 
 
 def test_a_pillar_is_the_mean_over_all_pillars(rng):

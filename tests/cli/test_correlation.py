@@ -1,11 +1,8 @@
 """springblock correlation and collect."""
 
-import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from springblock.analysis.correlation import Correlation
-from springblock.analysis.correlations import _curve
 from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH
 
 
@@ -30,21 +27,12 @@ def test_sides_along_both_axes_are_correlated_and_collected(
         assert table.schema.metadata[b"code_version"] == made[b"code_version"]
 
 
-def test_samples_are_all_sides_of_all_pillars_and_realisations():
-    found = Correlation(np.random.default_rng(0).normal(size=(5, 4, 2, 8)))
-    assert {row["samples"] for row in _curve(found)} == {40}
-
-
-@pytest.mark.parametrize(
-    ("third", "sides"),
-    [((), {"x", "grooves"}), (("--n-p3", 1, "--n-s3", 1, "--along-3", "x"), {"x"})],
-)
-def test_edges_along_grooves_are_correlated_where_they_are_not_cut(
-    springblock, batch, outputs, tmp_path, third, sides
+def test_edges_along_grooves_are_not_correlated_where_they_are_cut(
+    springblock, batch, outputs, tmp_path
 ):
-    scene = ("--n-p", 7, "--n-s", 5, "--n-p2", 3, "--n-s2", 1, *third)
-    springblock("correlation", batch(0, 2, *scene), *outputs)
-    assert set(pq.read_table(tmp_path / "c")["side"].to_pylist()) == sides
+    third = ("--n-p2", 3, "--n-s2", 1, "--n-p3", 1, "--n-s3", 1, "--along-3", "x")
+    springblock("correlation", batch(0, 2, "--n-p", 7, "--n-s", 5, *third), *outputs)
+    assert set(pq.read_table(tmp_path / "c")["side"].to_pylist()) == {"x"}
 
 
 def test_surfaces_without_sides_and_two_scenes_are_refused(
@@ -56,9 +44,3 @@ def test_surfaces_without_sides_and_two_scenes_are_refused(
     refusal = springblock("correlation", *pillars, flat, *outputs, refused=True)
     assert "several scenes: " in refusal
     assert list(tmp_path.iterdir()) == []
-
-
-def test_tables_of_other_columns_are_not_collected(springblock, pillars, outputs, tmp_path):
-    springblock("correlation", *pillars, *outputs)
-    words = (tmp_path / "l", tmp_path / "c", "--configuration", "0", "--output", tmp_path / "a")
-    assert "c lacks the column 'l_c'" in springblock("make", "collect", *words, refused=True)

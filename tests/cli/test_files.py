@@ -1,39 +1,16 @@
-"""springblock info, dictionary, and verify of two files."""
+"""Files that commands take and write, and springblock verify of two files."""
 
 import os
+from pathlib import Path
 
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from springblock.analysis.comparison import differences
 from springblock.io.parquet import write
 from springblock.plotting.figures import FIGURES
 
 CONFIGURATION = ("--configuration", "0123")
-OUTPUT = ("--output", "{here}/a")
-
-
-def test_info_says_what_a_batch_holds_and_what_made_it(springblock, batch):
-    said = springblock("info", batch(0, 2))
-    assert "3 rows" in said
-    assert "code_version: " in said
-    assert any(line.split()[:3] == ["t_max", "double", "s"] for line in said.splitlines())
-
-
-@pytest.mark.parametrize(
-    "words",
-    [
-        ("info", "{file}"),
-        ("claims", "{batch}", "--correlation", "{file}", *CONFIGURATION, *OUTPUT),
-    ],
-    ids=lambda words: words[0],
-)
-def test_what_is_no_table_is_refused(springblock, batch, tmp_path, words):
-    (text := tmp_path / "text").write_text("text")
-    words = [word.format(file=text, here=tmp_path, batch=batch(0, 2)) for word in words]
-    assert "Parquet" in springblock(*words, refused=True)
-    assert list(tmp_path.iterdir()) == [text]
 
 
 TABLES = [(name, each.tables) for name, each in FIGURES.items() if each.draws == "tables"]
@@ -45,7 +22,7 @@ CLAIMED = ("correlation", "correlation-length", "work-precision")
     [
         *(("figure", name, "{file}", "--output", "{here}/a.png") for name, _ in TABLES),
         *(
-            ("claims", "{batch}", f"--{name}", "{file}", *CONFIGURATION, *OUTPUT)
+            ("claims", "{batch}", f"--{name}", "{file}", *CONFIGURATION, "--output", "{here}/a")
             for name in CLAIMED
         ),
         ("make", "accuracy", *["{file}"] * 4, "--output", "{here}/a.md"),
@@ -73,64 +50,25 @@ def test_a_figure_takes_its_tables_alone(springblock, batch, tmp_path, name, tab
     assert said == f"Error: {len(files)} files given; give {', '.join(tables)}"
 
 
-def changed(file, to, **columns):
-    """Write a table with some cells changed, its rows in the other order."""
-    table = pq.read_table(file, partitioning=None)
-    for name, values in columns.items():
-        at = table.column_names.index(name)
-        table = table.set_column(
-            at, table.schema.field(at), pa.array(values, table.schema.types[at])
-        )
-    write(table.take(list(range(table.num_rows))[::-1]), to, {})
-    return to
-
-
-def test_a_difference_is_named_with_its_size(springblock, batch, tmp_path):
-    t_max = pq.read_table(batch(0, 2), partitioning=None)["t_max"].to_pylist()
-    other = changed(batch(0, 2), tmp_path / "b", t_max=[t_max[0], 1.5 * t_max[1], t_max[2]])
-    said = springblock("verify", batch(0, 2), other, refused=True)
-    assert f"t_max: 1 row differs, by {0.5 * t_max[1]:.3g} at most, or 0.5 of the first" in said
-
-
-def test_curves_of_other_lengths_and_missing_rows_are_differences(batch, tmp_path):
+def test_two_files_are_the_same_in_any_order_of_their_rows_or_verify_fails(
+    springblock, batch, tmp_path
+):
     table = pq.read_table(batch(0, 2), partitioning=None)
-    short = [force[:5] for force in table["force"].to_pylist()]
-    other = pq.read_table(changed(batch(0, 2), tmp_path / "b", force=short))
-    rows, force = differences(table, other.slice(0, 2))
-    assert rows == "2 rows in both, 1 only in the first"
-    assert force.startswith("  force: 2 rows differ")
+    write(table.take([2, 1, 0]), tmp_path / "b.parquet", {})
+    assert "the same 3 rows" in springblock("verify", batch(0, 2), tmp_path / "b.parquet")
+    springblock("verify", batch(0, 2), batch(3, 3), refused=True)
+    assert "give a second file" in springblock("verify", batch(0, 2), refused=True)
 
 
-def test_tables_of_other_columns_or_rows_are_not_the_same(springblock, batch, tmp_path):
-    table = pq.read_table(batch(0, 2), partitioning=None)
-    write(table.drop_columns(["t_avg"]), tmp_path / "b", {})
-    assert "t_avg" in springblock("verify", batch(0, 2), tmp_path / "b", refused=True)
-    said = springblock("verify", batch(0, 2), batch(3, 3), refused=True)
-    assert said.endswith(": no rows in both, 3 only in the first, 1 only in the second")
-
-
-def test_equal_tables_are_the_same_in_any_order_of_their_rows(springblock, batch, tmp_path):
-    other = changed(batch(0, 2), tmp_path / "b.parquet")
-    assert "the same 3 rows, to the bit" in springblock("verify", batch(0, 2), other)
-    assert "give a second file" in springblock("verify", other, refused=True)
-
-
-@pytest.mark.parametrize("kind", ["fifo", "link", "link to nothing", "device"])
-def test_nothing_but_a_regular_file_is_replaced(springblock, tmp_path, kind):
+def test_nothing_but_a_regular_file_is_replaced(springblock, tmp_path):
     """As root, renaming a file to a device would take it from all programs."""
-    (tmp_path / "table").write_text("theirs")
-    output = tmp_path / "output"
-    if kind == "fifo":
-        os.mkfifo(output)
-    elif kind == "device":
-        output = "/dev/null"
-    else:
-        output.symlink_to(tmp_path / ("table" if kind == "link" else "absent"))
-    before = os.lstat(output)
-    refusal = springblock("dictionary", "--output", output, refused=True)
-    assert "exists and is not a regular file" in refusal
-    assert os.lstat(output) == before
-    assert (tmp_path / "table").read_text() == "theirs"
+    os.mkfifo(tmp_path / "fifo")
+    (tmp_path / "link").symlink_to(tmp_path / "absent")
+    for output in (tmp_path / "fifo", tmp_path / "link", Path("/dev/null")):
+        before = output.lstat()
+        refusal = springblock("dictionary", "--output", output, refused=True)
+        assert "exists and is not a regular file" in refusal
+        assert output.lstat() == before
 
 
 #: For each command that writes, words that it would take, and names of other types of files.

@@ -1,6 +1,5 @@
 """springblock make."""
 
-import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
@@ -9,7 +8,6 @@ from mechanism import chapter
 from precision import tables
 from springblock.accuracy import solutions, stability
 from springblock.accuracy.stability.cases import Case, Outcome
-from springblock.accuracy.work_precision import rows_of
 from springblock.io.parquet import load, origin_of, write
 from springblock.report.dictionary import kinds
 
@@ -84,12 +82,6 @@ def test_a_page_whose_sentences_its_tables_contradict_is_not_written(springblock
     said = springblock("make", "mechanism", *files, "--output", tmp_path / "a.md", refused=True)
     assert "the tables contradict “Static friction is lowest on pillars of 20 (or 6)" in said
     assert not (tmp_path / "a.md").exists()
-
-
-def test_an_error_is_the_root_mean_square_over_realisations():
-    errors = {"t_max": np.array([3.0, 4.0])}
-    (row,) = rows_of("reference", "flat", "rk4", 1e-8, errors)
-    assert row["error"] == pytest.approx(12.5**0.5)
 
 
 def test_four_tables_become_the_page_on_errors(springblock, batch, tmp_path):

@@ -51,11 +51,3 @@ def test_scenes_with_constants_of_their_own_belong_together(springblock, studies
     springblock("simulate", *PILLARS, *varied, "--output", own)
     springblock("aggregate", studies["batch0"], own, *CONFIGURATION, "--output", table)
     assert pq.read_table(table).num_rows == 6
-
-
-def test_realisations_of_different_code_do_not_belong_together(springblock, studies, tmp_path):
-    """The version of the package may be the same."""
-    own, table = tmp_path / "own", tmp_path / "table"
-    springblock("--code", "0" * 16, "simulate", *PILLARS, "--first-seed", 9, "--output", own)
-    words = ("aggregate", studies["batch0"], own, *CONFIGURATION, "--output", table)
-    assert "were made by different code" in springblock(*words, refused=True)

@@ -25,8 +25,6 @@ def test_the_seed_chooses_the_run(springblock, batch, tmp_path):
         springblock("plot", batch(0, 1), *seed, "--output", picture)
     first, zero, one = (picture.read_text() for picture in pictures)
     assert first == zero != one
-    refusal = springblock("plot", batch(0, 1), "--seed", 2, "--output", "a.png", refused=True)
-    assert refusal.endswith("0-1.parquet has no run with seed 2; choose one of 0, 1")
 
 
 def test_fields_are_mapped_alone(springblock, tmp_path):
@@ -56,20 +54,3 @@ def test_a_surface_is_shown(springblock, tmp_path):
     text = (tmp_path / "surface.svg").read_text(encoding="utf-8")
     assert "64 of 144 blocks in contact, 44.4 %" in text
     assert "n_blocks = 12, level = 1, n_p = 4, n_s = 2, direction = 30" in text
-
-
-def test_other_formats_are_refused(springblock, batch, tmp_path):
-    output = ("--output", tmp_path / "run.avi")
-    said = springblock("plot", batch(0, 1), *output, refused=True)
-    assert "run.avi: choose a name that ends in .pdf or .png or .svg" in said
-    said = springblock("animate", batch(0, 1), *output, refused=True)
-    assert "run.avi: choose a name that ends in .gif or .mp4" in said
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_what_has_nothing_to_be_drawn_over_is_told(springblock, batch, tmp_path):
-    slow, fast = batch(0, 1), batch(0, 1, "--vary", "slider_velocity=1e-3")
-    words = ("--over", "slider_velocity", "--output", tmp_path / "a.svg")
-    assert springblock("plot", slow, fast, *words) == ""
-    told = springblock("plot", slow, fast, batch(0, 2, "--n-p", 6, "--n-s", 6), *words)
-    assert told == "Left out: 3 realisations of surfaces with a single slider_velocity\n"

@@ -110,12 +110,6 @@ def test_runs_of_two_durations_are_two_ensembles_in_either_order(springblock, ba
         assert float(rows[0]["static_friction"]) > 10.0 * float(rows[1]["static_friction"])
 
 
-def test_runs_of_different_code_are_in_no_table(springblock, batch, tmp_path):
-    older = tmp_path / "older.parquet"
-    springblock("--code", "0" * 16, "simulate", "--n-blocks", 12, "--output", older)
-    assert "made by different code" in springblock("table", batch(0, 1), older, refused=True)
-
-
 def test_directions_are_compared_with_the_smallest_angle(springblock, batch, tmp_path):
     """Which is x: as text, 30 and 45 would come before it."""
     files = [batch(0, 1, "--direction", angle) for angle in ("45", "y", "x", "30", "-20")]
@@ -165,26 +159,8 @@ def test_other_thresholds_are_not_paired_and_ensembles_of_one_side_are_named(
     assert "by seed" in springblock("compare", batch(0, 2), batch(0, 2, "--vary", spaced))
     two = batch(0, 2, *length), batch(0, 2, *length, "--vary", spaced)
     assert "of means" in springblock("compare", *two)
-    for rows in (10, 12):
-        np.save(tmp_path / f"{rows}.npy", np.ones((rows, 12), bool))
-    surfaces = (batch(0, 1, "--mask", tmp_path / f"{rows}.npy") for rows in (10, 12))
-    assert "of means" in springblock("compare", *surfaces)
     for i, file in enumerate((batch(0, 2), batch(0, 2, "--vary", "slider_velocity=1e-3"))):
         (tmp_path / f"{i}.parquet").write_bytes(file.read_bytes())
     said = springblock("compare", tmp_path, batch(0, 2))
     assert f"only in {tmp_path}: " in said
     assert said.splitlines()[-1].split()[:2] == ["3,", "3"]
-
-
-def test_a_table_is_csv_or_parquet(springblock, batch, tmp_path):
-    for name in ("a.txt", "a"):
-        said = springblock("table", batch(0, 2), "--output", tmp_path / name, refused=True)
-        assert f"{name}: choose a name that ends in .csv or .parquet" in said
-        assert not (tmp_path / name).exists()
-
-
-@pytest.mark.parametrize("turned", [False, True])
-def test_a_file_is_not_compared_with_the_folder_that_holds_it(springblock, batch, turned):
-    file = batch(0, 2)
-    both = (file, file.parent)[:: -1 if turned else 1]
-    assert "share their realisations" in springblock("compare", *both, refused=True)
