@@ -6,13 +6,10 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
-import pyarrow as pa
 import pytest
 
-from springblock import Setup, Surface, read, simulate
-from springblock.io.parquet import refuse_mixture, rows_to_table, write
+from springblock import Surface, read, simulate
 from springblock.io.records import by_scene, read_records
-from springblock.io.schemas import SCENE, SETUP
 from springblock.model.scene import Scene
 
 BATCH = ("simulate", "--n-blocks", 6, "--n-p", 2, "--n-s", 1, "--first-seed", 9, "--last-seed", 10)
@@ -66,38 +63,6 @@ def test_runs_of_one_scene_that_end_at_other_times_are_not_read_together(
     springblock(*BATCH[:-4], "--first-seed", 2, *asked, "--output", other)
     with pytest.raises(ValueError, match=rf"{name} is 0\.0 in .*whole\.parquet and .* in .*other"):
         read_records([whole, other])
-
-
-def test_constants_that_a_scene_varies_may_differ_in_one_study():
-    schema, varied = pa.schema([*SCENE, *SETUP]), {"density": 1e3, "pressure": 2e5}
-    plain, named, unnamed = (
-        (Path(name), rows_to_table([scene.row | setup.constants], schema))
-        for name, scene, setup in (
-            ("plain", Scene(6), Setup()),
-            ("named", Scene(6, varied=varied), Setup().vary(varied)),
-            ("unnamed", Scene(6), Setup().vary(varied)),
-        )
-    )
-    refuse_mixture([plain, named])
-    with pytest.raises(ValueError, match=r"is .* in plain and .* in unnamed; give runs of one"):
-        refuse_mixture([plain, unnamed])
-
-
-def test_a_stored_run_is_summarised_in_one_line_and_may_have_no_snapshots(springblock, tmp_path):
-    springblock(*BATCH, "--output", tmp_path / "a.parquet")
-    run, _ = read(tmp_path / "a.parquet")
-    assert len(run.snapshots) == len(run.snapshot_times) == 0
-    scene = "n_blocks = 6, level = 1, n_p = 2, n_s = 1, direction = x, seed = 9"
-    assert repr(run).startswith(f"<{scene}: static friction ")
-    assert "\n" not in repr(run)
-
-
-def test_other_files_are_refused(tmp_path):
-    write(pa.table({"level": [1]}), tmp_path / "a.parquet", {})
-    with pytest.raises(ValueError, match=r"a.parquet lacks the column 'n_p'"):
-        read(tmp_path / "a.parquet")
-    with pytest.raises(FileNotFoundError):
-        read(tmp_path / "b.parquet")
 
 
 def test_nothing_slow_is_imported_before_it_is_needed():

@@ -119,12 +119,6 @@ def test_a_link_out_of_the_study_is_refused(clone, name):
     assert packed(clone)[1] > len(RESULTS)
 
 
-def test_results_outside_of_the_study_are_refused(clone):
-    elsewhere = clone.parent / "elsewhere"
-    with pytest.raises(ValueError, match=r"elsewhere is not in .*study, the folder of the study"):
-        archive(clone, elsewhere, clone / "config/config.yaml", clone / "a.zip")
-
-
 @pytest.mark.parametrize(
     ("missing", "sentence"),
     [

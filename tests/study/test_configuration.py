@@ -14,14 +14,12 @@ import studies
 from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
 from springblock.study.configuration import (
-    Planned,
     check,
     completed,
     ensembles,
     for_figures,
     setup,
 )
-from springblock.study.texts import check_texts
 from studies import ROOT, SCHEMA, places
 
 SWEEPS = {"angle": {"groups": ["grooves", "angles"], "over": "direction"}}
@@ -48,25 +46,6 @@ def test_every_key_is_documented():
     assert {key for key in keys if f"`{key}`" not in text} == set()
 
 
-def test_a_group_is_a_grid_over_its_lists():
-    """Each size of pillars may have its own number of seeds."""
-    check(PAPER, SCHEMA)
-    groups = ensembles(PAPER)
-    assert [e.scene.n_p for e in groups["pillars"]] == PAPER["scenes"]["pillars"]["n_p"]
-    assert [len(e.seeds) for e in groups["pillars"]] == PAPER["scenes"]["pillars"]["seeds"]
-    assert {len(e.seeds) for e in groups["angles"]} == {PAPER["scenes"]["angles"]["seeds"]}
-    assert all(e.scene.n_s == e.scene.n_p for e in groups["pillars"])
-    assert [e.scene.direction for e in groups["grooves"]][:2] == ["x", "y"]
-    seeds = PAPER["scenes"]["flat"]["seeds"]
-    assert groups["flat"][0] == Planned(Scene(120), range(10_000, 10_000 + seeds), 3e-4)
-
-
-def test_a_group_may_be_a_list_of_grids():
-    grids = [{"n_p": [n_p], "n_s": [10 - n_p], "direction": ["x"], "seeds": 1} for n_p in (4, 6)]
-    members = ensembles(changed("scenes.ten", to=grids))["ten"]
-    assert [(e.scene.n_p, e.scene.n_s) for e in members] == [(4, 6), (6, 4)]
-
-
 def test_a_constant_may_be_an_axis_of_a_grid():
     """The study's own value makes the scene that other groups have."""
     axes = {"slider_velocity": [5e-4, 1e-3], "gamma": [0, 5000]}
@@ -83,22 +62,6 @@ def test_a_constant_that_the_study_changes_is_named_where_it_is_the_papers():
     faster["scenes"] = {"own": {"n_blocks": [9], "material": axis, "direction": ["x"], "seeds": 1}}
     found = [e.scene for e in ensembles(faster)["own"]]
     assert found == [Scene(9, varied={"slider_velocity": 5e-4}), Scene(9)]
-
-
-def test_a_law_may_be_an_axis_with_its_constant():
-    axes = {"law": ["slip_weakening"], "slip_distance": [1e-8, 1e-7]}
-    grid = {"n_blocks": [9], "material": axes, "direction": ["x"], "seeds": 1}
-    weak = changed("scenes.weak", to=grid)
-    check(weak, SCHEMA)
-    scenes = [e.scene for e in ensembles(weak)["weak"]]
-    assert scenes[1] == Scene(9, varied={"law": "slip_weakening", "slip_distance": 1e-7})
-
-
-def test_gaps_may_be_multiples_and_parts_of_a_pillar():
-    gaps = {"n_p/2": [1, 5, 15], "n_p/3": [1, 3, 10], "2n_p": [6, 20, 60], "3n_p/2": [4, 15, 45]}
-    for given, expected in gaps.items():
-        grid = {"n_p": [3, 10, 30], "n_s": [given], "direction": ["x"], "seeds": 1}
-        assert [e.scene.n_s for e in ensembles(changed("scenes.far", to=grid))["far"]] == expected
 
 
 def test_a_scene_of_two_groups_is_one_ensemble_with_the_larger_number_of_seeds():
@@ -142,13 +105,6 @@ def test_lists_can_be_extended():
     assert completed(PAPER) == PAPER
 
 
-@pytest.mark.parametrize("count", [1, 7, 20])
-def test_batches_hold_each_seed_once(count):
-    batches = Planned(Scene(4), range(3, 3 + count), None).batches(5)
-    assert [seed for batch in batches.values() for seed in batch] == list(range(3, 3 + count))
-    assert all({seed // 5 for seed in batch} == {i} for i, batch in batches.items())
-
-
 @pytest.fixture
 def surfaces(tmp_path, monkeypatch):
     """The paper's configuration with a group of one's own surfaces, given its grid."""
@@ -158,8 +114,7 @@ def surfaces(tmp_path, monkeypatch):
     Path("again").mkdir()
     shutil.copy("corner.npy", "again")
     shutil.copy("corner.npy", "copy.npy")
-    np.save("strong.npy", np.full((3, 3), 1.5))
-    np.save("weak.npy", np.full((3, 3), -0.5))
+    np.save("mu.npy", np.full((3, 3), 1.5))
     Path("broken.png").write_bytes(b"no image")
 
     def configured(direction=("x",), seeds=4, **grid):
@@ -196,30 +151,18 @@ def test_topographies_are_cut_at_the_spacing_of_the_lattice(
 @pytest.mark.parametrize(
     ("grid", "sentence"),
     [
-        ({"mask": "broken.png"}, "broken.png is neither an image nor a NumPy array"),
-        (
-            {"mask": ["corner.npy", "again/corner.npy"]},
-            r"describe the same surface corner-\w{8}",
-        ),
-        (
-            {"mask": ["corner.npy", "copy.npy"]},
-            r"masks corner.npy and copy.npy describe the same surface copy-\w{8}; remove one",
-        ),
-        ({"mask": "corner.npy", "height": 1e-6}, "mask cannot be combined with topogr"),
-        ({"bearing_area": 0.5}, "scenes.own: bearing_area needs topography"),
-        ({"topography": "absent.opd", "height": 1e-6}, "absent.opd does not exist"),
-        ({"mask": "corner.npy", "mu_static": "weak.npy"}, r"weak-\w{8} must be finite and not neg"),
-        ({"mask": "corner.npy", "seeds": None}, "scenes.own: 'seeds' is a required property"),
-        (
-            {"mask": "corner.npy", "mu_static": "strong.npy", "mu_dynamic": "strong.npy"},
-            "seeds must be 1, since no coefficients are drawn, not 4",
-        ),
-        ({"material": {"correlation_length": [1.0]}}, "own: correlation_length must be at most"),
-        ({"edges": "periodic", "n_rows": [2]}, "periodic edges each side must have at least 3"),
+        ({"mask": ["corner.npy", "again/corner.npy"]}, "describe the same surface"),
+        ({"mask": "corner.npy", "height": 1e-6}, "mask cannot be combined with topography"),
+        ({"bearing_area": 0.5}, "bearing_area needs topography"),
+        ({"mask": "broken.png"}, "broken.png"),
+        ({"mask": "corner.npy", "seeds": None}, "'seeds' is a required property"),
+        ({"mask": "corner.npy", "mu_static": "mu.npy", "mu_dynamic": "mu.npy"}, "seeds must be 1"),
+        ({"material": {"correlation_length": [1.0]}}, "correlation_length"),
+        ({"edges": "periodic", "n_rows": [2]}, "periodic edges"),
     ],
 )
-def test_errors_in_surfaces_from_files_name_the_key(surfaces, grid, sentence):
-    with pytest.raises(ValueError, match=sentence) as refusal:
+def test_errors_in_surfaces_from_files_name_the_group(surfaces, grid, sentence):
+    with pytest.raises(ValueError, match=rf"^scenes.own: .*{sentence}") as refusal:
         check(surfaces(**grid), SCHEMA)
     assert "\n" not in str(refusal.value)
 
@@ -258,15 +201,6 @@ def test_a_study_of_own_scenes_shows_each_surface_once_in_each_direction(surface
     assert [each.scene.direction for each in shown] == ["x", "y"]
 
 
-def test_the_papers_groups_hold_its_own_surfaces(surfaces):
-    own = surfaces(mask="corner.npy")["scenes"]["own"]
-    for group in ("flat", "grooves"):
-        with pytest.raises(
-            ValueError, match=f"scenes.{group}: surfaces in this group must be square"
-        ):
-            check(changed(f"scenes.{group}", to=own), SCHEMA)
-
-
 def test_one_realisation_suffices_without_scatter():
     """A correlation needs three, and the paper's figures need correlations."""
     scatter = {"mu_static_std": [0.0], "mu_dynamic_std": [0.0]}
@@ -298,49 +232,25 @@ def test_a_scene_of_two_groups_keeps_the_fields_that_either_asks_for():
     ("key", "value", "sentence"),
     [
         ("realisations_per_job", 0, "realisations_per_job is not valid: 0 .* minimum of 1"),
-        ("step", 9.6e-8, "leapfrog needs less than 9.56.*e-08 s"),
-        (
-            "material.mu_statik",
-            1.0,
-            "material: unknown constant 'mu_statik'; choose from .*mu_static",
-        ),
+        ("n_blocks", 24.0, "n_blocks is not valid: 24.0 is not of type 'integer' .N, blocks"),
+        ("stepp", 1e-8, "the configuration: unknown key 'stepp'"),
+        ("step", 9.6e-8, "leapfrog needs less than 9.56"),
+        ("material.mu_statik", 1.0, "material: unknown constant 'mu_statik'; choose from"),
         ("scenes.flat.snapshot_times", [1.0], "flat: snapshot_times must lie within the duration"),
         ("scenes.pillars.seeds", [20, 60], "pillars: seeds must have one number per n_p, 7, not 2"),
-        ("scenes.pillars.n_p", list(range(7, 14)), r"pillars: the period of size and gap = 7 \+ 7"),
         ("scenes.third_level.0.np", [9], "third_level.0: unknown key 'np'"),
         ("scenes.flat.material", {"speed": [1.0]}, "scenes.flat: unknown constant 'speed'"),
-        ("scenes.flat.n_s", [5], "scenes.flat: n_s = 5 needs n_p"),
+        ("scenes.flat.material", {"slider_velocity": [5e-2]}, "flat: sample_interval = 2e-07 s"),
         ("scenes.size_flat.n_blocks", [120], "duration must be the same wherever n_blocks = 120"),
         ("scenes.grooves", PAPER["scenes"]["gaps"], "grooves: .* of level 2, not 1"),
+        ("scenes.flat.edges", "periodic", "scenes.flat: surfaces in this group must be square"),
+        ("scenes.flat.direction", [*range(20_001)], "scenes.flat: 20001 scenes are too many"),
+        ("scenes", {}, "scenes: no scenes are given"),
         ("figures.sweeps.angle.groups", ["speeds"], "groups: unknown group 'speeds'; choose from"),
         ("figures.sweeps.angle.over", "speed", "over: unknown axis 'speed'; choose one .*n_p"),
-        ("step", 1e-30, "scenes.flat: step = 1e-30 s is too short for a loading time"),
-        ("n_blocks", 24.0, "n_blocks is not valid: 24.0 is not of type 'integer' .N, blocks"),
-        ("scenes.flat.seeds", 10**9, "flat.seeds is not valid: 1000000000 is greater than"),
-        ("figures.figure_7.n_p", 3, "figure_7.n_p is not valid: 3.*at least 6"),
-        (
-            "scenes.angles.material",
-            {"gamma": [1.0 + i for i in range(1000)], "pressure": [1.0 + i for i in range(1000)]},
-            r"scenes.angles: \d{7} scenes are too many; choose up to 20000",
-        ),
-        ("stepp", 1e-8, "the configuration: unknown key 'stepp'"),
-        ("sample_interval", 2.5e-8, "sample_interval must be a multiple of step"),
-        (
-            "scenes.flat.material",
-            {"slider_velocity": [5e-4, 5e-2]},
-            r"flat: sample_interval = 2e-07 s is too long for .* 0.05 m/s.* at most 2.2e-08 s",
-        ),
     ],
 )
 def test_one_sentence_says_what_is_wrong(key, value, sentence):
     with pytest.raises(ValueError, match=sentence) as refusal:
         check(changed(key, to=value), SCHEMA)
     assert "\n" not in str(refusal.value)
-
-
-def test_texts_are_no_longer_than_paths_can_be():
-    longest = "/".join(["a" * 200, *["a" * 199] * 4])  # 1000 bytes
-    check_texts({"a" * 200: longest})
-    for text in ("b/" + "a" * 201, longest + "a", "ä" * 101):
-        with pytest.raises(ValueError, match="1000 bytes, and 200 between two slashes"):
-            check_texts(text)

@@ -38,13 +38,6 @@ def test_requests_grow_with_the_work():
     assert twice == pytest.approx(2.0 * once)
 
 
-def test_requests_range_from_a_minute_to_hours():
-    assert minutes(Scene(12, 3, 3), Setup(), None, 10) == 1
-    largest = Scene(4000, 20, 20)
-    hours = 10 * cpu_seconds(largest, Setup(), None) / 3600.0
-    assert 5.0 < hours < minutes(largest, Setup(), None, 10) / 60.0 < 24.0
-
-
 @pytest.mark.parametrize(("n_blocks", "realisations", "measured"), MEASURED)
 def test_memory_is_what_was_measured_with_a_margin(n_blocks, realisations, measured):
     assert 1.1 * measured < memory(Scene(n_blocks, 10, 10), realisations) < 2.0 * measured

@@ -3,7 +3,7 @@
 import pytest
 
 from springblock.study.written import check_file
-from studies import ROOT, Study
+from studies import Study
 
 #: What is written, and words of the sentence about it.
 WRITTEN = {
@@ -36,11 +36,6 @@ def test_what_is_not_meant_is_refused_in_one_sentence(tmp_path, text, sentence):
         check_file(file)
     assert sentence in str(refused.value)
     assert "\n" not in str(refused.value)
-
-
-@pytest.mark.parametrize("file", sorted((ROOT / "config").rglob("*.yaml")), ids=lambda f: f.name)
-def test_the_study_s_own_configurations_are_read(file):
-    check_file(file)
 
 
 def test_a_byte_order_mark_is_none_of_the_configuration(tmp_path):
