@@ -1,4 +1,4 @@
-"""The table `continuum` as tests need it: friction is lowest at seven units, or twelve with a small mu_d."""
+"""The table `continuum` as tests need it: friction is lowest at seven units, or at twelve."""
 
 import math
 from functools import cache
