@@ -128,22 +128,10 @@ def test_a_rectangle_has_a_draw_for_each_block():
 @pytest.mark.parametrize(
     ("constants", "sentence"),
     [
-        (
-            {"distribution": "uniform", "mu_static_std": 0.6},
-            "mu_static_std must be at most 0.5774, not 0.6, with mu_static = 1.0 and .* uniform",
-        ),
-        (
-            {"distribution": "weibull", "mu_dynamic": 0.0},
-            "mu_dynamic must be positive with the distribution weibull, not 0.0",
-        ),
-        (
-            {"distribution": "weibull", "mu_static_std": 20.0},
-            "must be 1e-5 to 15 times mu_static = 1.0 .* not 20.0",
-        ),
-        (
-            {"correlation_length": 9e-5},
-            "must be at most the side of the surface, 8e-05 m, not 9e-05 m",
-        ),
+        ({"distribution": "uniform", "mu_static_std": 0.6}, "mu_static_std must be at most 0.5774"),
+        ({"distribution": "weibull", "mu_dynamic": 0.0}, "mu_dynamic must be positive"),
+        ({"distribution": "weibull", "mu_static_std": 20.0}, "1e-5 to 15 times mu_static = 1.0"),
+        ({"correlation_length": 9e-5}, "at most the side of the surface, 8e-05 m, not 9e-05 m"),
     ],
 )
 def test_impossible_distributions_are_refused_without_drawing(constants, sentence):
@@ -168,10 +156,3 @@ def test_the_probability_of_a_threshold_is_the_share_of_draws(kind):
     measured = [np.mean(draws > each) for each in needed]
     assert measured == pytest.approx(shares, abs=4 * 0.5 / np.sqrt(BLOCKS))
     assert log_share_above(np.array([9.0]), material)[0] < -30
-
-
-def test_a_seed_is_a_whole_number_and_not_negative():
-    with pytest.raises(TypeError, match="seed must be a whole number"):
-        draw_friction(2, 1.0)
-    with pytest.raises(ValueError, match="seed must be at least 0, not -1"):
-        draw_friction(2, -1)

@@ -83,11 +83,6 @@ def test_crossed_grooves_are_pillars_upon_pillars():
     np.testing.assert_array_equal(crossed.contact, base.pillared(5, 1).contact)
 
 
-def test_contact_is_read_only():
-    with pytest.raises(ValueError, match="read-only"):
-        Pattern.flat(3).contact[0, 0] = False
-
-
 @pytest.mark.parametrize(
     ("build", "message"),
     [

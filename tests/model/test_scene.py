@@ -125,49 +125,33 @@ def test_coefficients_are_read_from_their_file_and_matter_in_contact_only():
         Scene(mask=mask, mu_dynamic_field=field([[-1.0, 0.0]]))
 
 
-ONES = {"mu_static_field": field(np.ones((120, 120)))}
+ONES = field(np.ones((120, 120)))
 
 
 @pytest.mark.parametrize(
     ("given", "sentence"),
     [
+        ({"mask": CORNER}, "n_blocks and n_rows must be those of the mask, 3 and 2"),
+        ({"mask": replace(CORNER, values=None), **STRIPS}, "mask cannot be combined with n_p, n_s"),
+        ({"mask": replace(CORNER, values=None), "n_p2": 8}, "mask cannot be combined with n_p2"),
+        ({"mu_static_field": field(np.ones((2, 3)))}, r"strong-00000000 must have the shape"),
+        ({"mu_static_field": ONES, "varied": {"mu_static_std": 0.3}}, "mu_static_std cannot be"),
         (
-            {"mask": CORNER},
-            "n_blocks and n_rows must be those of the mask, 3 and 2, not 120 and 120",
-        ),
-        (
-            {"mask": replace(CORNER, values=None), **STRIPS},
-            "mask cannot be combined with n_p, n_s, n_p2, n_s2, since .*; leave out one of them",
-        ),
-        (
-            {"mask": replace(CORNER, values=None), "n_p2": 8},
-            "mask cannot be combined with n_p2, .*",
-        ),
-        (
-            {"mu_static_field": field(np.ones((2, 3)))},
-            r"strong-00000000 must have the shape \(N_y, N_x\) = \(120, 120\) of the surface, "
-            r"not \(2, 3\)",
-        ),
-        (
-            ONES | {"varied": {"mu_static_std": 0.3}},
-            "mu_static_std cannot be varied if mu_static is read from strong-00000000",
-        ),
-        (
-            ONES
-            | {"mu_dynamic_field": ONES["mu_static_field"], "varied": {"distribution": "weibull"}},
-            "distribution cannot be varied if all coefficients are from files",
+            dict.fromkeys(["mu_static_field", "mu_dynamic_field"], ONES)
+            | {"varied": {"distribution": "weibull"}},
+            "distribution cannot be varied",
         ),
         ({"n_p": 20}, "n_p = 20 needs n_s"),
         ({"n_s": 10}, "n_s = 10 needs n_p"),
         ({"n_p": 58, "n_s": 62, "n_p3": 8, "n_s3": 2}, "n_p3 = 8 needs n_p2"),
         (STRIPS | {"along_3": "x"}, "along_3 must be left out without n_p3, not 'x'"),
         ({"varied": {"a-b": 1}}, "unknown constant 'a-b'; choose from youngs_modulus, .*, step"),
-        ({"varied": {"direction": 30}}, "direction is not a constant .* --direction, .*"),
+        ({"varied": {"direction": 30}}, "direction is not a constant"),
         ({"varied": {"gamma": "much"}}, "gamma must be a number, not 'much'"),
     ],
 )
 def test_invalid_scenes_are_refused(given, sentence):
-    with pytest.raises(ValueError, match=f"^{sentence}$"):
+    with pytest.raises(ValueError, match=f"^{sentence}"):
         Scene(120, **given)
 
 

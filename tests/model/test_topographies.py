@@ -85,11 +85,10 @@ def test_heights_come_from_the_channel_that_is_named(tmp_path, monkeypatch):
     for channel, highest in ((None, 11), ("a", 11), ("b", 0)):
         contact = Cut(file, 1e-5, bearing_area=1 / 12, channel=channel).mask()
         assert np.flatnonzero(contact) == [highest]
-    with pytest.raises(ValueError, match=r"channel must be the name of one of a, b, not .c."):
-        Cut(file, 1e-5, bearing_area=0.5, channel="c").mask()
     channels[1].name = "a"
-    with pytest.raises(ValueError, match=r"channel must be the name of one of a, a, not .a."):
-        Cut(file, 1e-5, bearing_area=0.5, channel="a").mask()
+    for name in "ac":  # twice, and never
+        with pytest.raises(ValueError, match=rf"channel must be the name of one .* not .{name}."):
+            Cut(file, 1e-5, bearing_area=0.5, channel=name).mask()
     channels[0].is_height_channel, channels[0].data_unit = False, "V"
     with pytest.raises(ValueError, match=r"its channel .a. has no heights, but V"):
         Cut(file, 1e-5, bearing_area=0.5).mask()
@@ -100,18 +99,6 @@ def test_options_of_the_command_are_those_of_the_cut(springblock, tmp_path):
     cut = Cut(file, 1e-5, height=0.0, channel="Main", detrend="plane")
     springblock("mask", file, *split(cut.arguments), "--output", mask)
     np.testing.assert_array_equal(np.load(mask), cut.mask())
-
-
-def test_the_command_cuts_a_mask_for_the_solver(springblock, tmp_path):
-    file, mask = written(tmp_path, HEIGHTS), tmp_path / "mask.npy"
-    said = springblock("mask", file, "--bearing-area", 0.25, "--output", mask)
-    assert said == f"{mask}: 3 x 4 blocks, 25.0% in contact\n"
-    np.testing.assert_array_equal(np.flatnonzero(np.load(mask)), range(9, 12))
-    springblock("mask", file, "--height", 6e-9, "--spacing", 2e-5, "--output", mask)
-    np.testing.assert_array_equal(np.load(mask), [[False, True]])
-    refusal = springblock("mask", file, "--output", tmp_path / "none.npy", refused=True)
-    assert "rough.txt: give either bearing_area or height" in refusal
-    assert not (tmp_path / "none.npy").exists()
 
 
 @pytest.mark.parametrize(
@@ -154,35 +141,22 @@ def test_jobs_read_what_was_cut(tmp_path):
 @pytest.mark.parametrize(
     ("header", "how", "sentence"),
     [
-        ("", {"height": 1e-9}, "must contain the size of the surface and its unit"),
-        (
-            "# Width: 40 µm\n# Height: 30 µm\n",
-            {"height": 1e-9},
-            "must contain the size of the surface and its",
-        ),
+        ("", {"height": 1e-9}, "must contain the size"),
+        ("# Width: 40 µm\n# Height: 30 µm\n", {"height": 1e-9}, "its unit of length"),
         (None, {"height": 1.0}, "height = 1.0 m is above the highest block, 1.1e-08 m"),
-        (
-            None,
-            {"height": 1e-9, "spacing": 1.0},
-            r"is 4e-05 x .* m; each side must hold 1 to \d+ blocks of spacing = 1.0 m",
-        ),
-        (
-            None,
-            {"height": 1e-9, "spacing": 1e-12},
-            r"must hold 1 to 4096 blocks of spacing = 1e-12 m",
-        ),
-        (None, {"height": 1e-9, "spacing": 0.0}, "spacing must be positive, not 0.0"),
-        (None, {}, "give either bearing_area or height"),
-        (None, {"height": 1e-9, "bearing_area": 0.5}, "give either bearing_area or height"),
-        (None, {"bearing_area": 0.0}, "bearing_area must be in .0, 1., not 0.0"),
-        (None, {"bearing_area": 30}, "bearing_area must be in .0, 1., not 30"),
+        (None, {"height": 1e-9, "spacing": 1.0}, "blocks of spacing = 1.0 m"),
+        (None, {"height": 1e-9, "spacing": 1e-12}, "1 to 4096 blocks of spacing"),
+        (None, {"height": 1e-9, "spacing": 0.0}, "spacing must be positive"),
+        (None, {}, "either bearing_area or height"),
+        (None, {"height": 1e-9, "bearing_area": 0.5}, "either bearing_area or height"),
+        (None, {"bearing_area": 0.0}, "bearing_area must be in .0, 1."),
+        (None, {"bearing_area": 30}, "bearing_area must be in .0, 1."),
     ],
 )
 def test_invalid_cuts_are_refused(tmp_path, header, how, sentence):
     file = written(tmp_path, HEIGHTS, **({} if header is None else {"header": header}))
-    with pytest.raises(ValueError, match=sentence) as refusal:
+    with pytest.raises(ValueError, match=sentence):
         Cut(file, **{"spacing": 1e-5, **how}).mask()
-    assert "\n" not in str(refusal.value)
 
 
 MAP, NOTHING = (4e-5, 3e-5), np.ma.masked_all((4, 3))
@@ -192,19 +166,29 @@ MAP, NOTHING = (4e-5, 3e-5), np.ma.masked_all((4, 3))
     ("measured", "sentence"),
     [
         # as an atomic force microscope may leave them
-        (SurfaceTopography.Topography(HEIGHTS.T, MAP, unit="V"), "its unit must be a length, not"),
+        (SurfaceTopography.Topography(HEIGHTS.T, MAP, unit="V"), "its unit must be a length"),
         (SurfaceTopography.Topography(NOTHING, MAP, unit="m"), "has no valid point"),
         (SurfaceTopography.UniformLineScan(HEIGHTS[0], 4e-5, unit="m"), "not a profile"),
-        (SimpleNamespace(nb_grid_pts=(2**14, 2**13)), "it has 134217728 points; 67108864 is the"),
+        (SimpleNamespace(nb_grid_pts=(2**14, 2**13)), "it has 134217728 points"),
     ],
 )
 def test_what_is_no_map_of_heights_is_refused(tmp_path, monkeypatch, measured, sentence):
     monkeypatch.setattr(SurfaceTopography, "open_topography", opened(measured))
+    file = written(tmp_path, HEIGHTS)
     with pytest.raises(ValueError, match=rf"rough.txt.* {sentence}"):
-        Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5).mask()
-    monkeypatch.setattr("springblock.model.blockmap._BYTES", 100)
-    with pytest.raises(ValueError, match=r"rough.txt is too large; .* at most 100 bytes"):
-        Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5).mask()
+        Cut(file, 1e-5, bearing_area=0.5).mask()
+
+
+@pytest.mark.parametrize("name", ["rough.txt", "rough.xyz"])
+def test_other_files_are_refused_in_one_sentence(tmp_path, monkeypatch, name):
+    file = tmp_path / name
+    file.write_text("no heights at all")
+    with pytest.raises(ValueError, match=rf"^\S+{name}") as refusal:
+        Cut(file, 1e-5, bearing_area=0.5).mask()
+    assert "\n" not in str(refusal.value)
+    monkeypatch.setattr("springblock.model.blockmap._BYTES", 10)
+    with pytest.raises(ValueError, match=rf"{name} is too large"):
+        Cut(file, 1e-5, bearing_area=0.5).mask()
 
 
 def test_blocks_without_a_height_are_not_in_contact(tmp_path, monkeypatch):
@@ -216,26 +200,7 @@ def test_blocks_without_a_height_are_not_in_contact(tmp_path, monkeypatch):
     np.testing.assert_array_equal(np.flatnonzero(contact), range(4, 10))
 
 
-@pytest.mark.parametrize(
-    "content", ["", "no heights at all", "1 2 3\n4 5\n", "1 " * 10**4, "# " * 10**5]
-)
-def test_other_files_are_refused(tmp_path, content):
-    (tmp_path / "rough.txt").write_text(content)
-    with pytest.raises(ValueError, match=r"^\S+rough.txt") as refusal:
-        Cut(tmp_path / "rough.txt", 1e-5, bearing_area=0.5).mask()
-    assert "\n" not in str(refusal.value)
-
-
-def test_a_file_in_no_known_format_is_refused(tmp_path):
-    (tmp_path / "rough.xyz").write_bytes(b"nothing")
-    with pytest.raises(ValueError, match="is not a topography that SurfaceTopography can read"):
-        Cut(tmp_path / "rough.xyz", 1e-5, bearing_area=0.5).mask()
-
-
 def test_whatever_a_reader_fails_with_is_one_sentence(tmp_path, monkeypatch):
-    def fails(file):
-        raise KeyError("scan")
-
-    monkeypatch.setattr(SurfaceTopography, "open_topography", fails)
+    monkeypatch.setattr(SurfaceTopography, "open_topography", lambda file: {}["scan"])
     with pytest.raises(ValueError, match=r"rough.txt cannot be read: KeyError\('scan'\)"):
         Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5).mask()
