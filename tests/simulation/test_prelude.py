@@ -37,32 +37,16 @@ def skipped(prelude, surface):
     return motion.samples
 
 
-@pytest.mark.parametrize(
-    ("surface", "direction", "integrator"),
-    [
-        ("flat", "y", "leapfrog"),
-        ("pillars", "x", "leapfrog"),
-        ("pillars", 30.0, "rk4"),
-        ("grooves", 30.0, "leapfrog"),
-        ("random", "y", "rk4"),
-        ("several bands", "x", "leapfrog"),
-        ("several bands", "x", "rk4"),
-    ],
-)
-def test_a_run_from_the_prelude_is_the_run_from_zero(surface, direction, integrator):
-    contact = {
-        "flat": Pattern.flat(8).contact,
-        "pillars": PILLARS.contact,
-        "grooves": Pattern.pillars(14, 8, 6).grooved(2, 1).contact,
-        "random": np.random.default_rng(5).random((9, 9)) < 0.7,
-        "several bands": Pattern.pillars(48, 10, 14).contact,
-    }[surface]
-    assert (Grid.of(contact.shape).band_rows < len(contact)) == (surface == "several bands")
-    fast = Material(slider_velocity=5e-3)  # soon over
-    how, scene = (Setup(fast, integrator), direction), Surface.draw(contact, seed=1)
-    prelude = compute_prelude(contact, *how)
+@pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
+def test_a_run_from_the_prelude_is_the_run_from_zero(integrator):
+    """Also on several bands of rows; `validation/test_properties.py` has all smaller surfaces."""
+    contact = Pattern.pillars(48, 10, 14).contact
+    assert Grid.of(contact.shape).band_rows < len(contact)
+    setup, scene = Setup(Material(slider_velocity=5e-3), integrator), Surface.draw(contact, seed=1)
+    prelude = compute_prelude(contact, setup, 30.0)
     assert prelude.samples.max() > 0
-    assert answer(simulate(scene, *how, prelude=prelude)) == answer(simulate(scene, *how))
+    runs = [simulate(scene, setup, 30.0, **how) for how in ({}, {"prelude": prelude})]
+    assert answer(runs[0]) == answer(runs[1])
 
 
 def test_a_weak_block_makes_a_run_start_from_an_earlier_state(prelude):
@@ -77,31 +61,25 @@ def test_a_snapshot_may_be_taken_where_the_prelude_ends(prelude):
     assert answer(simulate(scene, prelude=prelude, **how)) == answer(simulate(scene, **how))
 
 
-def test_a_prelude_stores_six_states_of_the_moving_blocks(tmp_path):
+def test_a_prelude_stores_six_states_and_is_read_back_to_the_bit(tmp_path):
     contact = Pattern.pillars(24, 4, 2).contact
     fast = Material(slider_velocity=5e-3)  # soon over
     prelude = compute_prelude(contact, Setup(fast, sample_interval=2e-8))
     assert len(prelude.samples) == len(HOLDING) == 6
     assert (np.diff(prelude.samples) > 0).all()
-    bound = np.count_nonzero(contact)
-    numbers = 6 * (4 * (24**2 - bound) + bound)
-    assert prelude.fields.nbytes + prelude.peak.nbytes == 8 * numbers
     prelude.save(tmp_path / "prelude.npz")
-    few = prelude.force.nbytes + 24**2 + 4096  # the samples, the pattern as text, headers
-    assert (tmp_path / "prelude.npz").stat().st_size < 8 * numbers + few
     stored = Prelude.read(tmp_path / "prelude.npz")
     assert vars(stored).keys() == vars(prelude).keys()
     for name, value in vars(prelude).items():
         np.testing.assert_array_equal(getattr(stored, name), value)
-    (tmp_path / "prelude.npz").write_bytes(b"text")
-    with pytest.raises(ValueError, match=r"prelude.npz is not a prelude, or damaged"):
-        Prelude.read(tmp_path / "prelude.npz")
 
 
 @pytest.mark.parametrize(
     "change",
     [
         {"pattern": Pattern.flat(12)},
+        {"pattern": Pattern.pillars(24, 4, 2, n_rows=6)},  # as many blocks, in another shape
+        {"periodic": True},
         {"direction": "y"},
         {"setup": Setup(integrator="rk4")},
         {"setup": Setup(step=1e-8)},
@@ -110,17 +88,11 @@ def test_a_prelude_stores_six_states_of_the_moving_blocks(tmp_path):
     ],
 )
 def test_a_prelude_of_another_scene_is_refused(prelude, change):
-    scene = {"pattern": PILLARS, **change}
-    surface = drawn(scene.pop("pattern"), seed=1)
+    scene = {"pattern": PILLARS, "periodic": False, **change}
+    contact = scene.pop("pattern").contact
+    surface = Surface.draw(contact, 1, periodic=scene.pop("periodic"))
     with pytest.raises(ValueError, match="prelude belongs to another scene"):
         simulate(surface, prelude=prelude, **scene)
-
-
-def test_a_prelude_with_free_edges_is_none_with_periodic_ones(prelude):
-    free = drawn(PILLARS, seed=1)
-    periodic = Surface(PILLARS.contact, free.mu_static, free.mu_dynamic, periodic=True)
-    with pytest.raises(ValueError, match="prelude belongs to another scene"):
-        simulate(periodic, prelude=prelude)
 
 
 @pytest.mark.parametrize(
