@@ -7,7 +7,6 @@ import pytest
 
 from specimens import flat
 from springblock import Material, Setup, simulate
-from springblock.accuracy import plain_rk4
 from springblock.accuracy.reference import _System, solve
 from springblock.solver.integrators import INTEGRATORS
 from validation.test_surfaces import LAWS, oblong
@@ -51,11 +50,6 @@ def test_the_reference_knows_how_fast_forces_turn(rng):
     before, after = (np.arctan2(motive[1], motive[0]) for motive in (motives[0], motives[2]))
     expected = np.remainder(after - before + np.pi, 2.0 * np.pi) - np.pi
     assert system._turning(motives[1], u, v) == pytest.approx(expected / 2e-4, rel=1e-4)
-
-
-def test_the_reference_has_a_sample_at_the_end():
-    """2.4e-6/2e-8 is 119.99999999999999 in floating point."""
-    assert len(solve(SURFACE, FAST, 2.4e-6, INTERVAL).force) == 121
 
 
 def of_second_order(errors):
@@ -111,20 +105,6 @@ def test_times_on_oblong_surfaces_are_those_of_the_reference(shape, share, seed,
 def test_the_reference_solution_refuses_other_laws():
     with pytest.raises(ValueError, match="law must be coulomb for the reference solution, not sl"):
         solve(SURFACE, replace(FAST, law="slip_weakening", slip_distance=4e-7))
-
-
-def test_an_oblong_surface_is_loaded_as_by_plain_runge_kutta():
-    """Until the first detachment, on a surface some of whose blocks are free.
-
-    The leapfrog is wrong by (omega h)²/24 of what oscillates, the other finds it a step too late.
-    """
-    surface, step = oblong((4, 9), share=0.6), 1e-8
-    plain = plain_rk4.solve(surface, 1.33e-4, step, sample_interval=2e-7)
-    run = simulate(surface, Setup(step=step), duration=1.33e-4)
-    assert np.nanargmin(run.t_det) == np.nanargmin(plain.t_det)
-    assert abs(run.t_first - np.nanmin(plain.t_det)) < step
-    before, off = run.time < run.t_first, (PAPER.omega_max * step) ** 2 / 24
-    np.testing.assert_allclose(run.force[before], plain.force[before], rtol=off)
 
 
 @pytest.mark.parametrize("law", LAWS)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from springblock import Material, Setup, Surface, compute_prelude, draw_friction, simulate
+from springblock import Material, Setup, Surface, draw_friction, simulate
 
 PAPER = Material()
 #: Loads a hundred times faster than the paper's: in 1500 steps all blocks detach.
@@ -67,13 +67,3 @@ def test_an_oblong_surface_turned_over_is_pulled_along_the_other_axis(integrator
     np.testing.assert_allclose(turned.force, run.force, rtol=1e-9)
     image, scale = run.displacement.transpose(0, 2, 1), np.abs(run.displacement).max()
     np.testing.assert_allclose(turned.displacement[::-1], image, rtol=0, atol=1e-9 * scale)
-
-
-def test_preludes_tell_shapes_and_edges_apart():
-    surface = oblong((6, 8), share=0.7, seed=5)
-    prelude = compute_prelude(surface.contact, Setup(FAST))
-    turned = moved(surface, lambda field: field.reshape(8, 6))  # the same blocks, another order
-    joined = Surface(surface.contact, surface.mu_static, surface.mu_dynamic, periodic=True)
-    for other in (turned, joined):
-        with pytest.raises(ValueError, match="prelude belongs to another scene"):
-            simulate(other, Setup(FAST), prelude=prelude)
