@@ -8,7 +8,7 @@ from click.testing import CliRunner
 
 from benchmarks import speed
 from benchmarks.peers import c_loop, lammps_lattice
-from benchmarks.timing import Missing, interleaved
+from benchmarks.timing import Missing
 from springblock.model.scene import Scene
 
 
@@ -20,19 +20,6 @@ def test_c_loop_moves_as_the_solver():
     assert set(differences) == {"displacement", "velocity", "force", "first detachment"}
     assert max(differences.values()) < c_loop.TOLERANCE
     assert np.float64(1e-320) * 0.5 > 0.0  # this process still knows subnormal numbers
-
-
-def test_what_is_compared_runs_in_turn():
-    order = []
-    runs = {name: lambda name=name: order.append(name) for name in "AB"}
-    seconds = interleaved(runs, 3)
-    assert "".join(order) == "ABABAB"
-    assert {name: len(each) for name, each in seconds.items()} == {"A": 3, "B": 3}
-
-
-def test_ratios_are_taken_within_repetitions():
-    row = speed.row("slow", np.array([2.0, 40.0, 6.0]), "s", np.array([1.0, 20.0, 3.0]))
-    assert (row["value"], row["quartiles"], row["ratio"]) == ("6", "4 - 23", "2.00")
 
 
 def test_the_benchmark_prints_one_table(monkeypatch):
