@@ -1,6 +1,8 @@
-"""Surfaces for tests."""
+"""Surfaces for tests, and all bits of a run on one."""
 
-from springblock import Material, Pattern, Surface
+import numpy as np
+
+from springblock import Material, Pattern, Realisation, Surface
 
 
 def uniform(n: int, mu_static: float, mu_dynamic: float) -> Surface:
@@ -16,3 +18,10 @@ def drawn(pattern: Pattern, seed: int, material: Material | None = None) -> Surf
 def flat(n: int, seed: int) -> Surface:
     """Return a flat surface of n x n blocks with the paper's scatter."""
     return drawn(Pattern.flat(n), seed)
+
+
+def bits(run: Realisation) -> tuple[object, ...]:
+    """Return all bits of a run."""
+    values = [*vars(run).values(), *vars(run.fields).values()]
+    arrays = (value.tobytes() for value in values if isinstance(value, np.ndarray))
+    return *arrays, run.energy, run.steps

@@ -2,7 +2,6 @@
 
 import importlib
 import json
-import os
 import signal
 import subprocess
 import sys
@@ -154,27 +153,3 @@ def test_a_run_that_fails_is_named(springblock, tmp_path):
     soft = ("--material", "youngs_modulus=1e4", "--step", 1e-6, "--sample-interval", 1e-5)
     refusal = springblock("simulate", *FLAT, *ONE, *soft, "--output", tmp_path / "a", refused=True)
     assert "n_blocks-6/level-0/direction-x, seed 3: at t = " in refusal
-
-
-def test_a_job_loads_nothing_that_it_does_not_need(springblock, tmp_path):
-    """Nor does it let linear algebra start threads, unless it is told to."""
-    job = ["simulate", "--n-blocks", "6", "--output", str(tmp_path / "run.parquet")]
-    springblock(*job)  # machine code is cached now
-    script = f"""if True:
-        import os, sys
-        from springblock.cli import main
-        main({job}, standalone_mode=False)
-        print(*sys.modules)
-        print(os.environ["OPENBLAS_NUM_THREADS"])
-    """
-    for told, threads in ((None, "1"), ("3", "3")):
-        ours = {name: value for name, value in os.environ.items() if "OPENBLAS" not in name}
-        ours |= {"OPENBLAS_NUM_THREADS": told} if told else {}
-        command = [sys.executable, "-c", script]
-        outcome = subprocess.run(command, env=ours, capture_output=True, text=True)
-        assert outcome.returncode == 0, outcome.stderr
-        *_, modules, of_blas = outcome.stdout.splitlines()
-        loaded = set(modules.split())
-        assert {"numba", "pyarrow.parquet"} <= loaded
-        assert not {"pandas", "matplotlib", "snakemake"} & loaded
-        assert of_blas == threads

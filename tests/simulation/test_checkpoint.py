@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from specimens import drawn
+from specimens import bits, drawn
 from springblock import Material, Pattern, Realisation, Setup, compute_prelude, simulate
 from springblock.provenance import digest
 from springblock.simulation.checkpoint import Checkpoint
@@ -54,13 +54,6 @@ def pull(seed=1, pattern=PILLARS, setup=Setup(), slide=1.0, **options) -> Realis
     return simulate(surface, setup, **how | options)
 
 
-def answer(run):
-    """All bits of a run."""
-    values = [*vars(run).values(), *vars(run.fields).values()]
-    fields = (value for value in values if isinstance(value, np.ndarray))
-    return [field.tobytes() for field in fields], run.energy, run.steps
-
-
 @pytest.mark.parametrize(
     ("integrator", "material"),
     [
@@ -78,21 +71,19 @@ def test_a_continued_run_equals_the_uninterrupted_one(stopped, saved, integrator
     assert whole.t_first < 1.4e-4  # there are detachments before it is stopped and after
     assert np.nanmax(whole.t_det) > 1.4e-4
     file = stopped(**how)
-    assert answer(pull(**how, checkpoint=file)) == answer(whole)
+    assert bits(pull(**how, checkpoint=file)) == bits(whole)
     assert len(saved) == 80 - TAKEN  # and no more was computed
     assert not file.exists()
     saved.clear()
     open_ended = how | {"duration": None}
-    assert answer(pull(**open_ended, checkpoint=stopped(**open_ended))) == answer(
-        pull(**open_ended)
-    )
+    assert bits(pull(**open_ended, checkpoint=stopped(**open_ended))) == bits(pull(**open_ended))
 
 
 @pytest.mark.parametrize("kept", [True, False])
 def test_it_may_continue_without_its_prelude_and_on_more_cores(stopped, kept):
     prelude = compute_prelude(PILLARS.contact)
     how = {"checkpoint": stopped(prelude=prelude, duration=3e-4), "duration": 3e-4, "cores": 2}
-    assert answer(pull(**how, prelude=prelude if kept else None)) == answer(pull(duration=3e-4))
+    assert bits(pull(**how, prelude=prelude if kept else None)) == bits(pull(duration=3e-4))
 
 
 @pytest.mark.parametrize(
