@@ -31,7 +31,8 @@ docs: full
 	cp results/accuracy.md results/claims.md results/mechanism.md results/continuum.md docs
 	cp results/figures/figure_6.png results/figures/continuum_friction.png docs
 	$(BIN)/python -m springblock.claims.full_study results/tables/claims.parquet
-	$(BIN)/springblock make findings results/tables/claims.parquet results/tables/realisations.parquet --output $(FINDINGS)
+	$(BIN)/springblock make findings results/tables/claims.parquet results/tables/realisations.parquet \
+	    results/tables/continuum.parquet --output $(FINDINGS)
 	sed -e '/^<!-- findings/,/^<!-- end/{/^<!--/!d;}' -e '/^<!-- findings/r $(FINDINGS)' README.md > results/README.md
 	mv results/README.md README.md
 	$(BIN)/springblock simulate --n-blocks 120 --n-p 20 --n-s 20 --output results/front.parquet

@@ -22,7 +22,7 @@ PAGES = {
     "accuracy": ("accuracy.page", ("work_precision", "stability", "realisations", "production")),
     "claims": ("claims.summary", ("claims",)),
     "continuum": ("continuum.page", ("continuum",)),
-    "findings": ("report.findings", ("claims", "realisations")),
+    "findings": ("report.findings", ("claims", "realisations", "continuum")),
     "mechanism": ("mechanism.page", (*TABLES, "sensitivities")),
 }
 #: Inputs of each name: description, smallest and largest number.
@@ -68,7 +68,8 @@ def make(
       accuracy           page on errors, from the tables work_precision, stability,
                          realisations and production
       claims             page on the paper's statements, from their table
-      findings           findings of the full study, from the tables claims and realisations
+      findings           findings of the full study, from the tables claims, realisations and
+                         continuum
       mechanism          page on static friction, from its tables
       continuum          page on the continuum limit, from its table
     """
