@@ -6,25 +6,28 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from seaborn import lineplot
 
+from springblock.analysis.statistics import mean_interval
 from springblock.mechanism.elasticity import Layer
 from springblock.mechanism.page import NAMES
 from springblock.mechanism.surfaces import TABLES
 from springblock.model.material import Material
 from springblock.model.numbers import Array
 from springblock.plotting import style
-from springblock.plotting.curves import BAR, FRICTION, LAG, draw_means, name_places
+from springblock.plotting.curves import BAR, FRICTION, LAG, name_places
 from springblock.plotting.maps import draw_map
 from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, PURPLE, VERMILION, Look, color_bar
 
 _SHOWN = (3, 6, 10, 20)  #: n_p of the pillars whose stress is mapped
 _COLORS = "cividis"
-_LOOKS: dict[str, Look] = {
-    "independent": {"color": BLUE, "marker": "s", "linestyle": ":"},
-    "quasi_static": {"color": GREEN, "marker": "^", "linestyle": "-."},
-    "sticking": {"color": PURPLE, "marker": "v", "linestyle": (0, (4, 1, 1, 1, 1, 1))},
-    "overshooting": {"color": VERMILION, "marker": "D", "linestyle": "--"},
-    "simulation": {"color": BLACK, "marker": "o"},
+#: Colours and markers of the models, in their order.
+_LOOKS = {
+    "independent": (BLUE, "s"),
+    "quasi_static": (GREEN, "^"),
+    "sticking": (PURPLE, "v"),
+    "overshooting": (VERMILION, "D"),
+    "simulation": (BLACK, "o"),
 }
 #: Quantities of the sensitivities, their axes and the factors to the units of these.
 _QUANTITIES = {
@@ -46,11 +49,7 @@ def mechanism_friction(table: pd.DataFrame) -> Figure:
     variation = table.groupby("n_p")["stress_variation"].first()
     uneven.plot(variation.index, variation, color=GREY, marker="o")
     uneven.set(ylabel="stress: standard deviation over mean", ylim=(0.0, None))
-    for name, look in _LOOKS.items():
-        samples = {n_p: part[name] for n_p, part in table.groupby("n_p")}
-        draw_means(friction, samples, **look, label=NAMES[name])
-    friction.set_ylabel(FRICTION)
-    friction.legend(loc="upper right", ncols=2)
+    _draw_friction(friction, table)
     for ax in (uneven, friction):
         name_places(ax, table["n_p"])
         ax.set_xlabel("size of pillars $n_p$ (blocks)")
@@ -80,6 +79,19 @@ def mechanism_sensitivities(table: pd.DataFrame) -> Figure:
     panels[0].margins(y=0.03)
     panels[0].invert_yaxis()
     return picture
+
+
+def _draw_friction(ax: Axes, table: pd.DataFrame) -> None:
+    """Draw mean friction by model over n_p, with 95 % intervals of Student's t."""
+    names = [NAMES[name] for name in _LOOKS]
+    colors, markers = (
+        dict(zip(names, each, strict=True)) for each in zip(*_LOOKS.values(), strict=True)
+    )
+    friction = table.rename(columns=NAMES).melt("n_p", names, "model", FRICTION)
+    look: Look = {"err_style": "bars", "err_kws": BAR, "errorbar": lambda s: mean_interval(s)[1:]}
+    groups: Look = {"hue": "model", "style": "model", "palette": colors, "markers": markers}
+    lineplot(friction, x="n_p", y=FRICTION, **groups, **look, ax=ax)
+    ax.legend(loc="upper right", ncols=2)
 
 
 def _draw_stress(panels: Sequence[Axes]) -> None:
