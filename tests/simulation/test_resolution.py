@@ -30,6 +30,7 @@ def warnings_of(material, caplog, duration=None, runs=1):
         ({"slip_distance": 1e-8}, "choose at most 8.9e-07 m"),  # c_0 = 5.3 µm
         ({"spacing": 5e-6}, "choose at most 2.5e-06 m"),  # a quarter of l_z
         ({"law": "coulomb", "slip_distance": 0.0}, None),
+        ({"mu_static": 0.6}, None),  # nothing weakens
     ],
 )
 def test_a_lattice_that_does_not_resolve_the_weakening_is_named_once(changes, named, caplog):

@@ -112,7 +112,7 @@ def _zones(rows: Sequence[Row]) -> dict[str, Any]:
 def _disordered(rows: Sequence[Row]) -> dict[str, Any]:
     """Return mean friction by size for each kind of disorder, and where it is lowest."""
     found = []
-    for own in _by(rows, "what", "healing").values():
+    for own in _by(rows, "what").values():
         means = {
             width: mean_interval([row["simulated"] for row in each])
             for (width,), each in _by(own, "width").items()

@@ -24,10 +24,11 @@ _warn_once = cache(logging.getLogger(__name__).warning)
 def kappa(material: Material, fraction: float) -> float:
     """Return k d_c/Delta, with k = K_s/l² and Delta = (mu_s - mu_d) P/fraction.
 
-    `fraction` is the contact fraction.
+    `fraction` is the contact fraction. Infinite without a drop.
     """
     drop = (material.mu_static - material.mu_dynamic) * material.pressure / fraction
-    return material.k_s / material.spacing**2 * material.slip_distance / drop
+    stiffness = material.k_s / material.spacing**2
+    return stiffness * material.slip_distance / drop if drop > 0.0 else math.inf
 
 
 def process_zone(decay: float, kappa: float) -> float:
@@ -40,7 +41,7 @@ def process_zone(decay: float, kappa: float) -> float:
 
 def warn(surface: Surface, material: Material, run: Run) -> None:
     """Warn, once for a material, where slip weakening depends on the lattice or on healing."""
-    if material.law != "slip_weakening" or material.mu_static <= material.mu_dynamic:
+    if material.law != "slip_weakening" or surface.contact.size == 1:  # which has no front
         return
     zone = process_zone(_DECAY * material.thickness, kappa(material, surface.contact.mean()))
     finest = min(zone / BLOCKS, material.thickness / LAYERS)
