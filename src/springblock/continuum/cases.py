@@ -154,10 +154,9 @@ def _disorder() -> Iterator[Series]:
     """Yield disorder of single blocks, and correlated over l_z."""
     drawn = replace(PLAIN, spacing=2.5e-6, mu_static_std=0.1, mu_dynamic_std=0.05)
     for kind, length in {"independent": 0.0, "correlated": 1e-5}.items():
-        material = replace(drawn, correlation_length=length)
-        yield Series(
-            "square", f"disorder, {kind}", material, 1.0, (2, 4, 6, 10, 15), 2, (0, 1, 2, 3), False
-        )
+        material, sizes = replace(drawn, correlation_length=length), (2, 4, 6, 10, 15)
+        seeds = (0, 1, 2, 3)
+        yield Series("square", f"disorder, {kind}", material, 1.0, sizes, 2, seeds, predicted=False)
 
 
 SERIES = {
