@@ -30,6 +30,7 @@ docs: full
 	$(BIN)/springblock dictionary --output docs/tables.md
 	cp results/accuracy.md results/claims.md results/mechanism.md results/continuum.md docs
 	cp results/figures/figure_6.png results/figures/continuum_friction.png docs
+	$(BIN)/springblock make applicability results/tables/realisations.parquet --output docs/applicability.md
 	$(BIN)/python -m springblock.claims.full_study results/tables/claims.parquet
 	$(BIN)/springblock make findings results/tables/claims.parquet results/tables/realisations.parquet \
 	    results/tables/continuum.parquet --output $(FINDINGS)

@@ -1,6 +1,7 @@
 """`simulate`: its arguments, its errors and its results."""
 
 import math
+import sys
 from dataclasses import fields, replace
 
 import numpy as np
@@ -375,6 +376,18 @@ def test_a_run_is_summarised_in_one_line(run):
     said = f"static friction {run.static_friction:.4f}, t_max {1e6 * run.t_max:.1f} µs"
     assert repr(run) == f"<12 x 12 blocks: {said}, t_avg {1e6 * run.t_avg:.1f} µs>"
     assert repr(pull()).endswith("t_max 2.0 µs, nothing has detached>")
+
+
+def test_long_runs_show_their_progress_on_a_terminal(capsys, monkeypatch):
+    pull()
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    pull()
+    assert capsys.readouterr().err == ""  # too short a run
+    monkeypatch.setattr("springblock.simulation.simulate._SOON", 0.0)
+    pull(progress=False)
+    assert capsys.readouterr().err == ""
+    pull()
+    assert "10/10" in capsys.readouterr().err
 
 
 def test_progress_is_shown_on_stderr_only_on_request(capsys):

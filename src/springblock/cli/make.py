@@ -19,6 +19,7 @@ MEASURED += [f"mechanism-{part}" for parts in TABLES.values() for part in parts]
 MEASURED += [f"continuum-{part}" for part in PARTS]
 #: Modules that compute the values of pages, and the tables that these follow from.
 PAGES = {
+    "applicability": ("analysis.strips", ("realisations",)),
     "accuracy": ("accuracy.page", ("work_precision", "stability", "realisations", "production")),
     "claims": ("claims.summary", ("claims",)),
     "continuum": ("continuum.page", ("continuum",)),
@@ -70,6 +71,7 @@ def make(
       claims             page on the paper's statements, from their table
       findings           findings of the full study, from the tables claims, realisations and
                          continuum
+      applicability      page on where the model applies, from the table realisations
       mechanism          page on static friction, from its tables
       continuum          page on the continuum limit, from its table
     """
