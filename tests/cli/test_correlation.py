@@ -27,12 +27,16 @@ def test_sides_along_both_axes_are_correlated_and_collected(
         assert table.schema.metadata[b"code_version"] == made[b"code_version"]
 
 
-def test_edges_along_grooves_are_not_correlated_where_they_are_cut(
-    springblock, batch, outputs, tmp_path
+@pytest.mark.parametrize(
+    ("third", "sides"),
+    [((), {"x", "grooves"}), (("--n-p3", 1, "--n-s3", 1, "--along-3", "x"), {"x"})],
+)
+def test_edges_along_grooves_are_correlated_where_they_are_not_cut(
+    springblock, batch, outputs, tmp_path, third, sides
 ):
-    third = ("--n-p2", 3, "--n-s2", 1, "--n-p3", 1, "--n-s3", 1, "--along-3", "x")
-    springblock("correlation", batch(0, 2, "--n-p", 7, "--n-s", 5, *third), *outputs)
-    assert set(pq.read_table(tmp_path / "c")["side"].to_pylist()) == {"x"}
+    scene = ("--n-p", 7, "--n-s", 5, "--n-p2", 3, "--n-s2", 1, *third)
+    springblock("correlation", batch(0, 2, *scene), *outputs)
+    assert set(pq.read_table(tmp_path / "c")["side"].to_pylist()) == sides
 
 
 def test_surfaces_without_sides_and_two_scenes_are_refused(

@@ -67,6 +67,9 @@ def test_a_prelude_stores_six_states_and_is_read_back_to_the_bit(tmp_path):
     assert vars(stored).keys() == vars(prelude).keys()
     for name, value in vars(prelude).items():
         np.testing.assert_array_equal(getattr(stored, name), value)
+    (tmp_path / "prelude.npz").write_bytes(b"text")
+    with pytest.raises(ValueError, match=r"prelude.npz is not a prelude, or damaged"):
+        Prelude.read(tmp_path / "prelude.npz")
 
 
 @pytest.mark.parametrize(
