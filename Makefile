@@ -10,7 +10,7 @@ APT_INSTALL := DEBIAN_FRONTEND=noninteractive apt-get install --yes --quiet --no
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick full docs site test browser test-slurm test-versions coverage soak mutants bench bench-ratios setup lock clean
+.PHONY: all quick full docs site test browser test-slurm test-versions coverage mutants bench bench-ratios setup lock clean
 
 # The paper's figures and their errors, in seven minutes on two cores.
 all: setup
@@ -88,7 +88,7 @@ INTERPRETED := test_springs or test_release or test_laws or (small and 7-3) or w
 coverage: setup
 	$(BIN)/coverage erase
 	$(BIN)/coverage run -m pytest $(PARALLEL) $(addprefix tests/,model analysis simulation solver \
-	    cli claims/test_rule.py claims/test_samples.py validation/test_law_files.py) -k "not study_may"
+	    cli claims/test_rule.py claims/test_samples.py validation/test_law_files.py)
 	NUMBA_DISABLE_JIT=1 $(BIN)/coverage run -m pytest -W ignore $(PARALLEL) --dist load \
 	    $(addprefix tests/solver/test_,springs.py release.py laws.py parallel.py) \
 	    $(addprefix tests/simulation/test_,fields.py simulation.py) \
@@ -96,10 +96,6 @@ coverage: setup
 	    -k "$(INTERPRETED)"
 	$(BIN)/coverage combine --quiet
 	$(BIN)/coverage report
-
-# The quick study, killed ten times at random moments: its tables must stay the same.
-soak: setup
-	$(BIN)/python tests/soak.py
 
 # Puts errors into copies of the code, one into each, and prints which test catches it: an hour or more.
 mutants: setup
