@@ -28,10 +28,10 @@ DRAWINGS = {
 def test_each_model_is_drawn_with_its_mean_by_size():
     panels = DRAWINGS["mechanism_friction"]().axes
     (friction,) = (ax for ax in panels if ax.get_ylabel() == "static friction")
-    lines = {line.get_label(): line for line in friction.containers}
-    assert list(lines) == list(NAMES.values())
-    for i, bars in enumerate(lines.values()):
-        places, means = bars.lines[0].get_data()
+    assert [text.get_text() for text in friction.get_legend().texts] == list(NAMES.values())
+    lines = [line for line in friction.lines if line.get_linestyle() != "None"]
+    for i in range(len(NAMES)):
+        places, means = lines[i].get_data()
         assert list(places) == [2, 6, 20]
         assert means == pytest.approx(0.6 + 0.1 * i)
 
