@@ -271,7 +271,7 @@ def test_every_statement_is_as_registered():
     assert set(forms) <= {each.title for each in STATEMENTS}
 
 
-@pytest.mark.parametrize("place", ["README.md", "docs/claims.md", "docs/registration/README.md"])
+@pytest.mark.parametrize("place", ["docs/claims.md", "docs/registration/README.md"])
 def test_pages_count_the_verdicts_of_the_registered_tests(place):
     found = Counter(row["verdict"] for row in registered("confirmed.csv"))
     text = " ".join((ROOT / place).read_text(encoding="utf-8").split())
@@ -279,14 +279,6 @@ def test_pages_count_the_verdicts_of_the_registered_tests(place):
     names = ("reproduced", "reproduced in part", "not reproduced", "not settled")
     numbers = [int(number) for number in re.findall(r"(\d+) (?:reproduced|in part|not)", said[0])]
     assert numbers == [found[name] for name in names]
-
-
-def test_the_readme_counts_registered_and_changed_tests():
-    text = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
-    number, changed = len(registered("confirmed.csv")), sum(bool(s.changed) for s in STATEMENTS)
-    assert f"The tests of {number} statements were registered" in text
-    assert f"Of these tests, {changed - len(STATEMENTS) + number} were later changed" in text
-    assert f"on these {changed} statements are not confirmatory" in text
 
 
 def test_forces_across_grooves_are_those_of_the_turned_surface():
