@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from springblock.analysis.statistics import Interval, mean_interval, number
+from springblock.analysis.statistics import Interval, mean_interval
 from springblock.io.rows import Row
 from springblock.model.material import Material
 from springblock.model.scene import Scene
@@ -45,7 +45,7 @@ def values(realisations: Iterable[Row]) -> dict[str, Any]:
     by_difference = sorted(strips, key=lambda each: each.difference.mean)
     return {
         "strips": strips,
-        "rows": [[str(s.number), str(s.width), *map(number, s[2:])] for s in strips],
+        "widest": max(m.high - m.mean for each in strips for m in (each.across, each.along)),
         "lowest": min(strips, key=lambda each: each.across.mean),
         "deepest": by_difference[0],
         "highest": by_difference[-1],
