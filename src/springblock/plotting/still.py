@@ -126,14 +126,9 @@ def plot_fields(fields: Fields, name: str = "") -> Figure:
     return picture
 
 
-@plot.register
-def plot_pattern(pattern: Pattern) -> Figure:
-    """Draw the blocks in contact."""
-    return show(pattern.contact)
-
-
-@plot.register
-def plot_surface(surface: Surface) -> Figure:
+@plot.register(Pattern)
+@plot.register(Surface)
+def plot_surface(surface: Pattern | Surface) -> Figure:
     """Draw the blocks in contact."""
     return show(surface.contact)
 
