@@ -266,6 +266,7 @@ def array(value, dtype=float, shape=(2, 2)):
         ({"duration": 1e-7}, "duration must be at least one sample_interval"),
         ({"duration": -1.0}, "duration must be finite and positive"),
         ({"duration": 1e9}, r"5e\+16 steps of 4 blocks would take 29 years"),
+        ({"duration": 2e3}, "sample_interval = 2e-07 s is too short for a duration of 2000 s"),
         ({"duration": "long", "snapshot_times": [2e-7]}, "duration must be a number"),
         ({"snapshot_times": ["2e-7"]}, "snapshot_times must be a number"),
         ({"snapshot_times": [3e-7]}, "snapshot_times must be a multiple of sample_interval"),
@@ -350,6 +351,11 @@ def test_a_spring_that_collapses_ends_the_run_with_time_and_place(integrator):
     time = float(str(failure.value).split("t = ")[1].split()[0])
     first = scene.mu_static.min() * heavy.block_load / (heavy.k_s * heavy.slider_velocity)
     assert first < time < 1.1 * first
+
+
+def test_a_run_whose_energy_overflows_is_refused():
+    with pytest.raises(SimulationError, match="the energy is"):
+        pull(material=Material(spacing=1e100))
 
 
 @pytest.mark.parametrize("beyond", [-7, 3 * PAUSE + 1])
