@@ -28,7 +28,7 @@ FIGURES = {
     name
     for name, figure in figures.FIGURES.items()
     if figure.is_part_of(TINY["scenes"])
-    and figure.category not in ("Mechanism", "Accuracy", "Beyond")
+    and figure.category not in ("Mechanism", "Accuracy", "Continuum")
 }
 
 
