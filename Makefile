@@ -20,7 +20,7 @@ all: setup
 quick: setup
 	$(BIN)/snakemake --configfile config/quick.yaml
 
-# The whole study, from which the pages in docs are made, in two hours and twenty-five minutes.
+# The whole study, from which the pages in docs are made, in about ninety minutes.
 full: setup
 	$(BIN)/snakemake --configfile config/full.yaml
 
