@@ -33,7 +33,7 @@ docs: full
 	$(BIN)/springblock make applicability results/tables/realisations.parquet --output docs/applicability.md
 	$(BIN)/python -m springblock.claims.full_study results/tables/claims.parquet
 	$(BIN)/springblock make findings results/tables/claims.parquet results/tables/realisations.parquet \
-	    results/tables/continuum.parquet --output $(FINDINGS)
+	    results/tables/continuum.parquet results/tables/production.parquet --output $(FINDINGS)
 	sed -e '/^<!-- findings/,/^<!-- end/{/^<!--/!d;}' -e '/^<!-- findings/r $(FINDINGS)' README.md > results/README.md
 	mv results/README.md README.md
 	$(BIN)/springblock simulate --n-blocks 120 --n-p 20 --n-s 20 --output results/front.parquet

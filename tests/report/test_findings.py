@@ -5,6 +5,7 @@ from dataclasses import asdict
 import pytest
 
 from continuum import chapter
+from precision import production_rows
 from springblock.claims.rule import Case
 from springblock.model.scene import Scene
 from springblock.pages import rendered
@@ -57,7 +58,7 @@ def test_the_size_of_lowest_friction_is_that_of_the_papers_pillars():
 
 
 def test_findings_have_the_values_of_the_tables():
-    text = rendered("findings.md", **values(CLAIMS, PAPER, chapter.rows()))
+    text = rendered("findings.md", **values(CLAIMS, PAPER, chapter.rows(), production_rows()))
     for value in ("0.170 [0.160, 0.180]", "0.860 [0.850, 0.870]", "7.0 layer thicknesses wide"):
         assert value in text
     assert text.count("**") == FILE.read_text(encoding="utf-8").count("**")
@@ -69,4 +70,4 @@ def test_findings_are_refused_where_their_statement_turns_out_otherwise(place):
     turned = {"verdict": "not settled", "outcome": "open", "value": 0.5}
     claims = [row | turned if i == place else row for i, row in enumerate(CLAIMS)]
     with pytest.raises(ValueError, match="contradict"):
-        rendered("findings.md", **values(claims, PAPER, chapter.rows()))
+        rendered("findings.md", **values(claims, PAPER, chapter.rows(), production_rows()))

@@ -58,7 +58,7 @@ def values(
     residuals = [abs(row["energy_error"]) for row in realisations]
     steps = sorted({row["step"] for row in production})
     flat = select(leapfrog, scene="flat", step=steps[0])
-    found = [_errors(rows) for rows in _cases(production)]
+    found = errors(production)
     return {
         "known": conventions,
         "step": STEP,
@@ -69,9 +69,9 @@ def values(
         "seeds": min(row["realisations"] for row in production),
         "steps": steps,
         "quantities": [*MEANS, DELAY, LENGTH],
-        "errors": {(each.quantity, each.scene): each for each in found},
+        "errors": found,
         "double": max(
-            (each for each in found if each.quantity == "t_avg"),
+            (each for each in found.values() if each.quantity == "t_avg"),
             key=lambda each: each.change / each.scatter,
         ),
         "of_steps": [_of_step(select(production, step=step)) for step in reversed(steps)],
@@ -97,6 +97,12 @@ def values(
         "stability": stability,
         "families": sorted({row["family"] for row in stability}),
     }
+
+
+def errors(production: Sequence[Row]) -> dict[tuple[str, str], Errors]:
+    """Return the errors at the default step by quantity and scene, from the table `production`."""
+    found = (_errors(rows) for rows in _cases(production))
+    return {(each.quantity, each.scene): each for each in found}
 
 
 def finest_bias(rows: Iterable[Row]) -> float:

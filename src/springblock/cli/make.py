@@ -23,7 +23,10 @@ PAGES = {
     "accuracy": ("accuracy.page", ("work_precision", "stability", "realisations", "production")),
     "claims": ("claims.summary", ("claims",)),
     "continuum": ("continuum.page", ("continuum",)),
-    "findings": ("report.findings", ("claims", "realisations", "continuum")),
+    "findings": (
+        "report.findings",
+        ("claims", "realisations", "continuum", "production"),
+    ),
     "mechanism": ("mechanism.page", (*TABLES, "sensitivities")),
 }
 #: Inputs of each name: description, smallest and largest number.
@@ -69,8 +72,8 @@ def make(
       accuracy           page on errors, from the tables work_precision, stability,
                          realisations and production
       claims             page on the paper's statements, from their table
-      findings           findings of the full study, from the tables claims, realisations and
-                         continuum
+      findings           findings of the full study, from the tables claims, realisations,
+                         continuum and production
       applicability      page on where the model applies, from the table realisations
       mechanism          page on static friction, from its tables
       continuum          page on the continuum limit, from its table

@@ -9,19 +9,24 @@ from typing import Any
 
 import numpy as np
 
+from springblock.accuracy import page as accuracy
 from springblock.analysis.lowest import Lowest, lowest
 from springblock.claims.summary import judged
 from springblock.continuum import page as continuum
 from springblock.io.rows import Row, select
+from springblock.model.defaults import STEP
 from springblock.model.scene import Scene
 
 FILE = Path(__file__).with_suffix(".md")
 
 
 def values(
-    claims: Sequence[Row], realisations: Iterable[Row], cells: Sequence[Row]
+    claims: Sequence[Row],
+    realisations: Iterable[Row],
+    cells: Sequence[Row],
+    production: Sequence[Row],
 ) -> dict[str, Any]:
-    """Return what the template names, from the tables `claims`, `realisations` and `continuum`."""
+    """Return what the template names, from the rows of four tables; `cells` is `continuum`."""
     shown = [row for part in judged(claims) for row in part.rows]
     limit = continuum.values(cells)
 
@@ -34,6 +39,8 @@ def values(
         "size": lowest_size(realisations),
         "usual": limit["usual"],
         "last": max(abs(row["last"]) for row in limit["squares"]),
+        "errors": accuracy.errors(production),
+        "seconds": max(row["cpu_seconds"] for row in select(production, step=STEP)),
     }
 
 

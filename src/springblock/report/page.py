@@ -4,6 +4,7 @@ from base64 import b64encode
 from collections.abc import Iterable, Mapping, Sequence
 from hashlib import sha256
 from importlib.metadata import version
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +24,8 @@ from springblock.report.findings import FILE
 
 #: Parts of the page in their order, before further pages.
 ORDER = ("figures", "claims", "mechanism", "continuum", "accuracy", "glossary")
-MODEL = "figure_1"  #: the picture of the method
+#: Figures that stand in the text before all parts.
+IN_TEXT = {"findings": ["figure_6"], "method": ["figure_1", "figure_2", "figure_3"]}
 OBSERVED = ("static_friction", "t_max", "t_avg")  #: whose means the page shows
 _HERE = Path(__file__).parent
 
@@ -96,7 +98,10 @@ def _of_study(figures: Figures, pages: Mapping[str, markup.Page]) -> dict[str, A
     return {
         "findings": markup.rendered("findings", FILE.read_text("utf-8"), pages).body,
         "statements": [(each, found[each.id]) for each in STATEMENTS],
-        "model": figures.get(MODEL),
+        "in_text": {
+            place: [figures[name] for name in names if name in figures]
+            for place, names in IN_TEXT.items()
+        },
         "parts": _parts(figures, pages),
         "version": version("springblock"),
     }
@@ -120,10 +125,10 @@ def rendered(template: str, **content: Any) -> str:
 
 
 def _parts(figures: Figures, pages: Mapping[str, markup.Page]) -> list[dict[str, Any]]:
-    """Parts that have something to show, in order, without the picture of the method."""
+    """Parts that have something to show, in order, without the figures in the text."""
     left: dict[str, list[dict[str, Any]]] = {}
     for name, figure in figures.items():
-        if name != MODEL:
+        if name not in chain.from_iterable(IN_TEXT.values()):
             part = figure["category"].lower()
             left.setdefault(part if part in pages else "figures", []).append(figure)
     parts = []
