@@ -189,8 +189,8 @@ def motive_force(problem: Problem, u: Array, steps: float) -> Array:
     return force
 
 
-def resistance(problem: Problem, memory: Memory, speed: Array, share: Array | float = 0.0) -> Array:
-    """Velocity T that friction removes in one step, at the mean speed V = speed + share T.
+def resistance(problem: Problem, memory: Memory, speed: Array, slope: Array | float = 0.0) -> Array:
+    """Velocity T that friction removes in one step, at the mean speed V = speed + slope T.
 
     Of several solutions V the largest is taken, which a decelerating block reaches first. Without a
     solution T is infinite: the block stops. If friction increases with V, the solution is unique.
@@ -200,15 +200,15 @@ def resistance(problem: Problem, memory: Memory, speed: Array, share: Array | fl
         mu = problem.call(problem.law.friction, memory, mean, 1)
         return problem.tau / problem.m * problem.load * mu
 
-    share = np.asarray(share)
-    if not share.any():
+    slope = np.asarray(slope)
+    if not slope.any():
         return friction_at(speed)
     still = np.zeros_like(speed)
-    low, high = still, np.maximum(speed, speed + share * friction_at(still))
+    low, high = still, np.maximum(speed, speed + slope * friction_at(still))
     mean, rises = high, friction_at(high) > friction_at(still)
-    bisected = rises | (share > 0.0)
+    bisected = rises | (slope > 0.0)
     for _ in range(2000):  # pragma: no branch - ends long before: low and high meet
-        right = speed + share * friction_at(mean)
+        right = speed + slope * friction_at(mean)
         low, high = np.where(mean < right, mean, low), np.where(mean < right, high, mean)
         found = np.maximum(np.where(bisected, 0.5 * (low + high), right), 0.0)
         if np.array_equal(found, mean):
@@ -238,9 +238,9 @@ def leapfrog(problem: Problem, state: Blocks) -> Blocks:
     w = a * v + tau / m * force
     w_dot_v = np.sum(v * w, axis=0)
     mean = np.where(w_dot_v > 0.0, v + w, w)
-    end = _end_weight(problem, state.memory, np.hypot(*v))
-    at = np.where(w_dot_v > 0.0, (1.0 - end) * v, 0.0) + end * w
-    friction = resistance(problem, state.memory, np.hypot(*at), -end)
+    weight = _end_weight(problem, state.memory, np.hypot(*v))
+    at = np.where(w_dot_v > 0.0, (1.0 - weight) * v, 0.0) + weight * w
+    friction = resistance(problem, state.memory, np.hypot(*at), -weight)
     held = (w_dot_v <= 0.0) & (np.hypot(*force) <= f_static)
     slides = (np.hypot(*w) > friction) & ~held
     with np.errstate(invalid="ignore"):

@@ -15,7 +15,7 @@ from springblock.files import read_arrays, whole_file
 from springblock.model.numbers import Array, check_real
 from springblock.provenance import digest
 from springblock.simulation.motion import Motion
-from springblock.solver.lattice import Samples, State
+from springblock.solver.lattice import Lattice, Samples
 
 
 def belonging(surface: str, friction: Sequence[Array], **asked: object) -> dict[str, str]:
@@ -99,7 +99,7 @@ def _digest(arrays: dict[str, NDArray[Any]]) -> str:
     return content.hexdigest()
 
 
-def _fields(state: State) -> list[NDArray[Any]]:
+def _fields(state: Lattice) -> list[NDArray[Any]]:
     """Return all fields that determine the rest of a run; scratch arrays are not among them."""
     of_law = [part for part in state.law or () if isinstance(part, np.ndarray)]
     return [*state.blocks, *state.work, state.ledger, *of_law]

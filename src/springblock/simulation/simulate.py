@@ -93,7 +93,7 @@ def simulate(
     check_type("setup", setup, Setup)
     surface.check_material(setup.material)
     contact, strongest = surface.contact, surface.strongest
-    end, at_samples = setup.plan(contact, strongest, duration, snapshot_times)
+    last_sample, at_samples = setup.plan(contact, strongest, duration, snapshot_times)
     latest = _LATEST * setup.loading_time(contact, strongest)
 
     motion = Motion(surface, setup, direction, cores)
@@ -101,7 +101,7 @@ def simulate(
     kept, snapshots = None, list[Array]()
     if checkpoint is not None:
         friction = surface.mu_static, surface.mu_dynamic
-        belongs = belonging(here, friction, duration=end, snapshot_times=at_samples)
+        belongs = belonging(here, friction, duration=last_sample, snapshot_times=at_samples)
         kept = Checkpoint(Path(checkpoint), checkpoint_interval, belongs)
         snapshots = kept.resume(motion)
     if prelude is not None:
@@ -111,14 +111,14 @@ def simulate(
                 "sample_interval"
             )
         if not motion.samples:
-            prelude.start(motion, min([*at_samples, math.inf if end is None else end]) - 1)
+            prelude.start(motion, min([*at_samples, last_sample or math.inf]) - 1)
     hidden = None if progress is None else not progress  # None: unless stderr is a terminal
     shown: dict[str, Any] = {"disable": hidden, "delay": 0.0 if progress else _SOON}
-    until = end or max(at_samples, default=None)
+    until = last_sample or max(at_samples, default=None)
     with tqdm(total=until, initial=motion.samples, unit=" samples", **shown) as bar:
-        while len(snapshots) < len(at_samples) or not _is_over(motion, end, latest):
+        while len(snapshots) < len(at_samples) or not _is_over(motion, last_sample, latest):
             pause = (motion.samples // _SAMPLES_PER_CALL + 1) * _SAMPLES_PER_CALL
-            pause = pause if end is None else min(pause, end)
+            pause = min(pause, last_sample or pause)
             for sample in [each for each in at_samples if motion.samples < each <= pause]:
                 motion.proceed(sample)
                 snapshots.append(_snapshot(motion))
@@ -133,10 +133,10 @@ def simulate(
     return run
 
 
-def _is_over(motion: Motion, end: int | None, latest: float) -> bool:
+def _is_over(motion: Motion, last_sample: int | None, latest: float) -> bool:
     """Return whether a run is complete, see `simulate`; raise if blocks are stuck at `latest` s."""
-    if end is not None:
-        return motion.samples >= end
+    if last_sample is not None:
+        return motion.samples >= last_sample
     blocks, now = motion.state.blocks, motion.steps * motion.setup.step
     t_det = blocks.t_det[blocks.static > 0.0] * motion.setup.step
     last = float(t_det.max())

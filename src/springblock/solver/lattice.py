@@ -20,7 +20,7 @@ from springblock.model.material import Material
 from springblock.model.numbers import Array
 from springblock.model.surface import Surface
 from springblock.solver.compilation import kernel
-from springblock.solver.laws import Law, law_of
+from springblock.solver.laws import KernelLaw, law_of
 from springblock.solver.springs import (
     FORCE_X,
     FORCE_Y,
@@ -53,7 +53,7 @@ class Blocks(NamedTuple):
     dynamic: Array  #: mu_d F_n; infinite for phantoms, whose velocity stays zero
 
 
-class State(NamedTuple):
+class Lattice(NamedTuple):
     """State of the lattice, and the work arrays of an integrator."""
 
     blocks: Blocks
@@ -62,9 +62,9 @@ class State(NamedTuple):
     ledger: Array  #: (3,) sums over steps, see `WORK`
     peak: Array | None  #: running maximum of |F_mot|², for a prelude only
     in_contact: NDArray[np.bool_]  #: (N_y,) whether a row holds any block in contact
-    law: Law  #: law of friction; None for a prelude, in which no block detaches
+    law: KernelLaw  #: law of friction; None for a prelude, in which no block detaches
 
-    def copy(self) -> "State":
+    def copy(self) -> "Lattice":
         """Return a copy that shares no memory with this state except the law's functions."""
         return deepcopy(self, {id(part): part for part in self.law or () if callable(part)})
 
@@ -105,7 +105,7 @@ class Samples(NamedTuple):
 #: Function that advances a state by `steps` steps from step `first` on, and samples after every
 #: `every` steps: (state, constants, first, steps, every, samples) -> number of steps taken, and row
 #: and column of a broken spring, -1 if none is.
-Advance = Callable[[State, Constants, int, int, int, Samples], tuple[int, int, int]]
+Advance = Callable[[Lattice, Constants, int, int, int, Samples], tuple[int, int, int]]
 
 
 #: Threshold of a contact block with mu_s = 0: not zero, which stands for no contact.
@@ -119,7 +119,7 @@ def prepare(
     integrator: ModuleType,
     step: float,
     keep_peak: bool = False,
-) -> tuple[State, Constants]:
+) -> tuple[Lattice, Constants]:
     """Return state and constants of a run in the kernels' units, at rest and unstrained.
 
     `heading` is the unit vector of the slider velocity; `integrator` is one of `integrators`.
@@ -150,7 +150,7 @@ def prepare(
         static=field(np.where(contact, static, 0.0)),
         dynamic=field(dynamic, beyond=np.inf),
     )
-    state = State(
+    state = Lattice(
         blocks=blocks,
         scratch=Scratch.empty(),
         work=tuple(field() for _ in range(integrator.WORK_FIELDS)),
@@ -159,7 +159,7 @@ def prepare(
         in_contact=np.asarray(contact.any(axis=1)),
         law=None
         if keep_peak
-        else law_of(material, step, load * velocity_per_force, blocks.static > 0.0, field),
+        else law_of(material, step, load * velocity_per_force, blocks.static > 0.0),
     )
     slide = material.slider_velocity * step / material.spacing
     constants = Constants(

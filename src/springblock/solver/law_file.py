@@ -1,8 +1,7 @@
 """Laws of friction from files (`springblock.model.law`), as the kernels call them.
 
 All these laws are one type that calls its functions through pointers: for a new law only these are
-compiled, in a second or two. The state of a block is a row of an array, and functions take the row.
-T and V are as in `laws`.
+compiled, in a second or two. Rows, T and V are as in `laws`.
 """
 
 import math
@@ -37,6 +36,65 @@ class FromFile(NamedTuple):
     friction: Any  #: (constants, state, row, mu_static, mu_dynamic, speed) -> mu, -1 if it raises
     #: (constants, state, row, speed, step) -> whether it stored a finite state, that after a step
     update: Any
+
+    @staticmethod
+    def resistance(law, row, speed, slope, static, dynamic):
+        """Return T at the largest solution V, which a decelerating block reaches first.
+
+        If friction decreases with V, a fixed-point iteration from above finds it. If friction
+        increases, the iteration overshoots, and V lies between the last two iterates.
+        """
+        if not law.contact[row]:
+            return dynamic
+        mean, friction = speed, _friction(law, row, max(speed, 0.0), static, dynamic)
+        for _ in range(_ITERATIONS if slope != 0.0 else 0):
+            before, mean = mean, speed + slope * friction
+            if abs(mean - before) <= _TOLERANCE * abs(speed):
+                break
+            if mean <= 0.0 and slope < 0.0:
+                mean = 0.0
+            fast, friction = friction, _friction(law, row, max(mean, 0.0), static, dynamic)
+            if friction == fast:  # independent of speed
+                break
+            if slope < 0.0 and speed + slope * friction >= mean:
+                low, high = (mean, friction), (before, fast)
+                return _between(law, row, speed, slope, static, dynamic, low, high)
+            if mean == 0.0:
+                return np.inf
+        return friction
+
+    @staticmethod
+    def end_weight(law, row, speed, static, dynamic):
+        """Return the least weight for which steep friction causes no ringing."""
+        if speed == 0.0 or not law.contact[row]:
+            return 0.5
+        slow = _friction(law, row, speed, static, dynamic)
+        fast = _friction(law, row, 2.0 * speed, static, dynamic)
+        return max(0.5, 1.0 - speed / max(fast - slow, speed))
+
+    @staticmethod
+    def threshold_of(law, row, static, dynamic):
+        return max(static, _friction(law, row, 0.0, static, dynamic))
+
+    @staticmethod
+    def row_before(law, b):
+        return b + len(law.state) // 2
+
+    @staticmethod
+    def row_at_release(law, b):
+        return len(law.state) - 1
+
+    @staticmethod
+    def store_state(law, b, row, moved, slides):
+        if not law.contact[b]:
+            return
+        for i in range(law.state.shape[1]):
+            law.state[b + len(law.state) // 2, i] = law.state[b, i]
+            law.state[b, i] = law.state[np.int64(row) if slides else -1, i]
+        if slides:
+            at, speed = np.int64(b), moved * law.speed
+            if not law.update(law.constants, law.state, at, speed, law.step):
+                _fail(law, at, speed)
 
 
 def from_file(
@@ -128,47 +186,21 @@ def _friction(law, row, speed, static, dynamic):
     return law.load * mu
 
 
-def resistance(law, row, speed, share, static, dynamic):
-    """Return T at the largest solution V, which a decelerating block reaches first.
-
-    If friction decreases with V, a fixed-point iteration from above finds it. If friction
-    increases, the iteration overshoots, and V lies between the last two iterates.
-    """
-    if not law.contact[row]:
-        return dynamic
-    mean, friction = speed, _friction(law, row, max(speed, 0.0), static, dynamic)
-    for _ in range(_ITERATIONS if share != 0.0 else 0):
-        before, mean = mean, speed + share * friction
-        if abs(mean - before) <= _TOLERANCE * abs(speed):
-            break
-        if mean <= 0.0 and share < 0.0:
-            mean = 0.0
-        fast, friction = friction, _friction(law, row, max(mean, 0.0), static, dynamic)
-        if friction == fast:  # independent of speed
-            break
-        if share < 0.0 and speed + share * friction >= mean:
-            low, high = (mean, friction), (before, fast)
-            return _between(law, row, speed, share, static, dynamic, low, high)
-        if mean == 0.0:
-            return np.inf
-    return friction
-
-
 @kernel
-def _between(law, row, speed, share, static, dynamic, low, high):
-    """Return T at V = speed + share T between two speeds, each given with its T.
+def _between(law, row, speed, slope, static, dynamic, low, high):
+    """Return T at V = speed + slope T between two speeds, each given with its T.
 
     By false position (Illinois) in log V, since friction usually increases with the logarithm of
     the speed.
     """
     left, right = math.log(max(low[0], _LEAST)), math.log(high[0])
-    below = low[0] - speed - share * low[1]
-    above, friction, moved = high[0] - speed - share * high[1], high[1], 0.0
+    below = low[0] - speed - slope * low[1]
+    above, friction, moved = high[0] - speed - slope * high[1], high[1], 0.0
     for _ in range(_ITERATIONS):
         middle = right - above * (right - left) / (above - below)
         mean = math.exp(middle)
         friction = _friction(law, row, mean, static, dynamic)
-        excess = mean - speed - share * friction
+        excess = mean - speed - slope * friction
         if abs(excess) <= _TOLERANCE * speed:
             break
         # Illinois: halve the residual of an end that is kept twice.
@@ -178,40 +210,3 @@ def _between(law, row, speed, share, static, dynamic, low, high):
             left, below, above = middle, excess, 0.5 * above if moved < 0.0 else above
         moved = excess
     return friction
-
-
-def end_weight(law, row, speed, static, dynamic):
-    """Return the least weight of the new velocity for which steep friction causes no ringing."""
-    if speed == 0.0 or not law.contact[row]:
-        return 0.5
-    slow = _friction(law, row, speed, static, dynamic)
-    fast = _friction(law, row, 2.0 * speed, static, dynamic)
-    return max(0.5, 1.0 - speed / max(fast - slow, speed))
-
-
-def threshold_of(law, row, static, dynamic):
-    return max(static, _friction(law, len(law.state) - 1, 0.0, static, dynamic))
-
-
-def state_at_release(law, row, moved):
-    return len(law.state) - 1
-
-
-def state_of(law, b):
-    return b
-
-
-def state_before(law, row, moved):
-    return row + len(law.state) // 2
-
-
-def store_state(law, b, row, moved, slides):
-    if not law.contact[b]:
-        return
-    for i in range(law.state.shape[1]):
-        law.state[b + len(law.state) // 2, i] = law.state[b, i]
-        law.state[b, i] = law.state[np.int64(row) if slides else -1, i]
-    if slides:
-        at, speed = np.int64(b), moved * law.speed
-        if not law.update(law.constants, law.state, at, speed, law.step):
-            _fail(law, at, speed)

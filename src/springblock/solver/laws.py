@@ -15,12 +15,18 @@ velocity_weakening  mu = mu_d + (mu_s - mu_d)/(1 + v/v_c) at a speed v (Burridge
 With mu_s <= mu_d friction does not weaken. Both weakening laws become Coulomb's in the limit of d_c
 or v_c to zero, with the leapfrog to the bit. For laws from files see `law_file`.
 
-A law is a type, for which the kernels are compiled; Coulomb's is None and adds no operation to
-them. T is the velocity that mu F_n removes in one step, and V the mean speed of that step.
+A law is a class, for which the kernels are compiled; its static methods are called by the functions
+at the end of this module. What it does not define it has from `Coulomb`, for which kernels take
+None, so that it adds no operation to them.
+
+The state of a block (its slip, or the variables of a file) is a row of arrays of the law. A law for
+n blocks has 2 n + 1 rows: for block b, row b now and row b + n one step before; in the last row the
+state of a block that detaches for the first time. T is the velocity that mu F_n removes in one
+step, and V the mean speed of that step.
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -30,31 +36,8 @@ from numpy.typing import NDArray
 from springblock.model.law import LawFile
 from springblock.model.material import Material
 from springblock.model.numbers import Array
-from springblock.solver import law_file
 from springblock.solver.law_file import FromFile, from_file
-
-
-class SlipWeakening(NamedTuple):
-    """Friction that decreases with slip."""
-
-    slip: Array  #: of each block since its release, in l; zero at rest
-    rate: float  #: l/d_c
-
-
-class LastingWeakening(NamedTuple):
-    """Slip weakening without healing."""
-
-    slip: Array  #: of each block since the start, in l
-    rate: float  #: l/d_c
-
-
-class VelocityWeakening(NamedTuple):
-    """Friction that decreases with speed."""
-
-    scale: float  #: v_c, in l per step
-
-
-Law = SlipWeakening | LastingWeakening | VelocityWeakening | FromFile | None
+from springblock.solver.springs import aligned
 
 #: Values, in the kernels' units, beyond which d_c and v_c act as zero or infinity.
 _LEAST, _MOST = 1e-100, 1e100
@@ -62,137 +45,177 @@ _LEAST, _MOST = 1e-100, 1e100
 _NO_SLIP = 1e-12
 
 
-def law_of(
-    material: Material,
-    step: float,
-    load: float,
-    contact: NDArray[np.bool_],
-    field: Callable[[], Array],
-) -> Law:
+class Coulomb:
+    """Friction mu_d F_n, without a state; for the meaning of the functions see below."""
+
+    @staticmethod
+    def resistance(law, row, speed, slope, static, dynamic):
+        return dynamic
+
+    @staticmethod
+    def end_weight(law, row, speed, static, dynamic):
+        return 0.5
+
+    @staticmethod
+    def strength_of(law, row, static, dynamic):
+        return static
+
+    @staticmethod
+    def threshold_of(law, row, static, dynamic):
+        return max(static, dynamic)
+
+    @staticmethod
+    def row_before(law, b):
+        return b
+
+    @staticmethod
+    def row_at_release(law, b):
+        return b
+
+    @staticmethod
+    def store_state(law, b, row, moved, slides):
+        pass
+
+    @staticmethod
+    def store_stage(law, b, moved):
+        return b
+
+
+class SlipWeakening(NamedTuple):
+    """Friction that decreases with slip; a block that comes to rest heals."""
+
+    slip: Array  #: since the release, in l; zero at rest
+    rate: float  #: l/d_c
+    blocks: np.uint64  #: n
+
+    @classmethod
+    def of(cls, blocks: int, distance: float) -> "SlipWeakening":
+        """Return the law for this many blocks; `distance` is d_c in l."""
+        rate = 1.0 / float(np.clip(distance, _LEAST, _MOST))
+        return cls(aligned(2 * blocks + 1), rate, np.uint64(blocks))
+
+    @staticmethod
+    def resistance(law, row, speed, slope, static, dynamic):
+        """Return T after a slip; it drops to mu_d at once if V h >= 2 d_c in a step from rest."""
+        slip, mean = law.slip[row], speed + slope * dynamic
+        left = max(1.0 - slip * law.rate, 0.0)
+        at_once = (slip <= _NO_SLIP * mean) & (0.5 * mean * law.rate >= 1.0)
+        return dynamic + max(static - dynamic, 0.0) * (0.0 if at_once else left)
+
+    @staticmethod
+    def row_before(law, b):
+        return np.uint64(b) + law.blocks
+
+    @staticmethod
+    def row_at_release(law, b):
+        return np.uint64(2) * law.blocks
+
+    @staticmethod
+    def store_state(law, b, row, moved, slides):
+        after = law.slip[row] + moved if slides else 0.0
+        law.slip[np.uint64(b) + law.blocks] = law.slip[b]
+        law.slip[b] = after
+
+    @staticmethod
+    def store_stage(law, b, moved):
+        row = np.uint64(b) + law.blocks
+        law.slip[row] = law.slip[b] + moved
+        return row
+
+
+class LastingWeakening(SlipWeakening):
+    """Slip weakening without healing: slip counts from the start of the run."""
+
+    @staticmethod
+    def strength_of(law, row, static, dynamic):
+        return dynamic + max(static - dynamic, 0.0) * max(1.0 - law.slip[row] * law.rate, 0.0)
+
+    threshold_of = strength_of
+
+    @staticmethod
+    def row_at_release(law, b):
+        return np.uint64(b) + law.blocks
+
+    @staticmethod
+    def store_state(law, b, row, moved, slides):
+        after = law.slip[row] + moved
+        law.slip[np.uint64(b) + law.blocks] = law.slip[b]
+        law.slip[b] = after
+
+
+class VelocityWeakening(NamedTuple):
+    """Friction that decreases with speed."""
+
+    scale: float  #: v_c, in l per step
+
+    @staticmethod
+    def resistance(law, row, speed, slope, static, dynamic):
+        """Return T at the larger of the two solutions V, which a block that slows reaches first."""
+        drop, c, fastest = max(static - dynamic, 0.0), law.scale, speed + slope * dynamic
+        under_root = (fastest + c) * (fastest + c) + 4.0 * slope * drop * c
+        mean = 0.5 * (fastest - c + math.sqrt(max(under_root, 0.0)))
+        return dynamic + drop * c / (c + max(mean, 0.0)) if under_root >= 0.0 else np.inf
+
+
+KernelLaw = SlipWeakening | VelocityWeakening | FromFile | None
+
+
+def law_of(material: Material, step: float, load: float, contact: NDArray[np.bool_]) -> KernelLaw:
     """Return the law of a material in the kernels' units.
 
-    `load` is F_n of a block; `contact` is one-dimensional, and `field` returns one value per block.
+    `load` is F_n of a block; `contact` is one-dimensional.
     """
     law = material.law
     if isinstance(law, LawFile):
         return from_file(law, contact, load, material.spacing / step, step)
     if law == "slip_weakening":
-        distance = np.clip(material.slip_distance / material.spacing, _LEAST, _MOST)
         weakening = LastingWeakening if material.healing == "none" else SlipWeakening
-        return weakening(field(), 1.0 / float(distance))
+        return weakening.of(len(contact), material.slip_distance / material.spacing)
     if law == "velocity_weakening":
         scale = np.clip(material.speed_scale * step / material.spacing, _LEAST, _MOST)
         return VelocityWeakening(float(scale))
     return None
 
 
-def _of_each_law(functions: Mapping[type, Callable[..., Any]], usual: Callable[..., Any]) -> Any:
-    """Return the function that calls one of `functions`, by the type of its first argument.
+def _of_law(name: str) -> Callable[..., Any]:
+    """Return the function that calls the law's own one of this name.
 
-    A law that is not among them has the function `usual`. Compiled callers choose when they are
-    compiled, and LLVM inlines the function; if numba inlined it instead, the assignment in
-    `_store_slip` would be lost.
+    Compiled callers choose when they are compiled, and LLVM inlines the function; if numba inlined
+    it instead, assignments to the state would be lost.
     """
 
+    def own(law: type) -> Any:
+        return getattr(law, name, getattr(Coulomb, name))
+
     def chosen(law, *arguments):
-        return functions.get(type(law), usual)(law, *arguments)
+        return own(type(law))(law, *arguments)
 
     @overload(chosen, strict=False)
     def compiled(law, *arguments):
-        return functions.get(getattr(law, "instance_class", type(None)), usual)
+        return own(getattr(law, "instance_class", Coulomb))
 
     return chosen
 
 
-def _after_slip(law, slip, speed, share, static, dynamic):
-    """Return T after a slip; it drops to mu_d at once if V h >= 2 d_c in a step from rest."""
-    mean = speed + share * dynamic
-    left = max(1.0 - slip * law.rate, 0.0)
-    at_once = (slip <= _NO_SLIP * mean) & (0.5 * mean * law.rate >= 1.0)
-    return dynamic + max(static - dynamic, 0.0) * (0.0 if at_once else left)
-
-
-def _strength(law, slip, static, dynamic):
-    return dynamic + max(static - dynamic, 0.0) * max(1.0 - slip * law.rate, 0.0)
-
-
-def _at_speed(law, slip, speed, share, static, dynamic):
-    """Return T at the larger of the two solutions V, which a decelerating block reaches first."""
-    drop, c, fastest = max(static - dynamic, 0.0), law.scale, speed + share * dynamic
-    under_root = (fastest + c) * (fastest + c) + 4.0 * share * drop * c
-    mean = 0.5 * (fastest - c + math.sqrt(max(under_root, 0.0)))
-    return dynamic + drop * c / (c + max(mean, 0.0)) if under_root >= 0.0 else np.inf
-
-
-def _store_slip(law, b, state, moved, slides):
-    law.slip[b] = state + moved if slides else 0.0
-
-
-def _add_slip(law, b, state, moved, slides):
-    law.slip[b] = state + moved
-
-
-def _slip_before(law, slip, moved):
-    return max(slip - moved, 0.0)
-
-
-#: (law, state, speed, share, static, dynamic) -> T at the mean speed V = speed + share T, where
-#: `speed` is that without friction: share is -β in the leapfrog, see `friction`. If V is known,
-#: share is 0. T is infinite if no V solves the equation: the block stops.
-resistance = _of_each_law(
-    {
-        SlipWeakening: _after_slip,
-        LastingWeakening: _after_slip,
-        VelocityWeakening: _at_speed,
-        FromFile: law_file.resistance,
-    },
-    lambda law, state, speed, share, static, dynamic: dynamic,
-)
-#: (law, state, speed, static, dynamic) -> weight β: friction is evaluated at (1 - β) v + β v⁺, with
-#: v and v⁺ before and after the step. β is 1/2, or more where friction rises steeply with speed.
-end_weight = _of_each_law(
-    {FromFile: law_file.end_weight}, lambda law, state, speed, static, dynamic: 0.5
-)
-#: (law, state, static, dynamic) -> largest force on a block at rest, or that reverses, which holds
+#: (law, row, speed, slope, static, dynamic) -> T at the mean speed V = speed + slope T, where
+#: `speed` is that without friction: the slope is -β in the leapfrog, see `friction`, and 0 if V is
+#: known. T is infinite if no V solves the equation: the block stops.
+resistance = _of_law("resistance")
+#: (law, row, speed, static, dynamic) -> weight β: friction is evaluated at (1 - β) v + β v⁺, with v
+#: and v⁺ before and after the step. β is 1/2, or more where friction rises steeply with speed.
+end_weight = _of_law("end_weight")
+#: (law, row, static, dynamic) -> largest force on a block at rest, or that reverses, which holds
 #: it: mu_s F_n, unless it has lost strength.
-strength_of = _of_each_law(
-    {LastingWeakening: _strength}, lambda law, state, static, dynamic: static
-)
-#: (law, state, static, dynamic) -> threshold of the force on a block at rest, F_c.
-threshold_of = _of_each_law(
-    {LastingWeakening: _strength, FromFile: law_file.threshold_of},
-    lambda law, state, static, dynamic: max(static, dynamic),
-)
-#: (law, state, moved) -> state at its release of a block that has since slipped by `moved`: its
-#: slip, or the row of its state.
-state_at_release = _of_each_law(
-    {LastingWeakening: _slip_before, FromFile: law_file.state_at_release},
-    lambda law, state, moved: 0.0,
-)
-#: (law, b) -> state of block b.
-state_of = _of_each_law(
-    {
-        SlipWeakening: lambda law, b: law.slip[b],
-        LastingWeakening: lambda law, b: law.slip[b],
-        FromFile: law_file.state_of,
-    },
-    lambda law, b: 0.0,
-)
-#: (law, state, moved) -> state before the last step, in which the block slipped by `moved`.
-state_before = _of_each_law(
-    {
-        SlipWeakening: _slip_before,
-        LastingWeakening: _slip_before,
-        FromFile: law_file.state_before,
-    },
-    lambda law, state, moved: 0.0,
-)
-#: (law, b, state, moved, slides): store the state of block b after a step from `state`.
-store_state = _of_each_law(
-    {
-        SlipWeakening: _store_slip,
-        LastingWeakening: _add_slip,
-        FromFile: law_file.store_state,
-    },
-    lambda law, b, state, moved, slides: None,
-)
+strength_of = _of_law("strength_of")
+#: (law, row, static, dynamic) -> threshold of the force on a block at rest, F_c.
+threshold_of = _of_law("threshold_of")
+#: (law, b) -> row with the state of block b one step before.
+row_before = _of_law("row_before")
+#: (law, b) -> row with the state of block b at its release in the last step.
+row_at_release = _of_law("row_at_release")
+#: (law, b, row, moved, slides): store the state of block b after a step from the state in `row`, in
+#: which it slipped by `moved`, and keep that which it had.
+store_state = _of_law("store_state")
+#: (law, b, moved) -> row with the state of block b after a part of a step, in which it slipped by
+#: `moved`; for `rk4`, which does not use the state one step before.
+store_stage = _of_law("store_stage")

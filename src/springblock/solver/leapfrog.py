@@ -24,8 +24,8 @@ from springblock.solver.friction import apply_friction
 from springblock.solver.lattice import (
     HEAT,
     Constants,
+    Lattice,
     Samples,
-    State,
     Totals,
     band_from,
     close_edge,
@@ -36,9 +36,8 @@ from springblock.solver.lattice import (
 )
 from springblock.solver.laws import (
     resistance,
-    state_at_release,
-    state_before,
-    state_of,
+    row_at_release,
+    row_before,
     store_state,
     strength_of,
     threshold_of,
@@ -59,7 +58,7 @@ _FOREVER = 1e15
 force_time = leapfrog_force_time
 
 
-def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, float]:
+def at_step(state: Lattice, constants: Constants, steps: int) -> tuple[Array, float]:
     """Velocity (2, lattice) after `steps` steps, in l per step, and the frictional heat so far.
 
     Both are means of the values half a step before and after; those after are computed on a copy.
@@ -104,23 +103,39 @@ def _without_phantoms(ux, uy, i, grid, sum_x, sum_y):
 
 
 @kernel
+def _list_releases(blocks, released, count, band, s, row):
+    """List the blocks of a row that were at rest until this step; return the number listed so far.
+
+    They have the velocity that F_mot and friction give a block at rest in one step.
+    """
+    for x in range(ONE, band.grid.n_x + ONE):
+        b = row * band.grid.pitch + x
+        slides = (blocks.vx[b] != 0.0 or blocks.vy[b] != 0.0) and blocks.static[b] > 0.0
+        if slides and s.row[TURNS + x] == 0.0:
+            released.row[count], released.x[count] = np.int64(row), np.int64(x)
+            released.ax[count], released.ay[count] = blocks.vx[b], blocks.vy[b]
+            count += 1
+    return count
+
+
+@kernel
 def _record_switches(blocks, released, count, band, s, row, now):
     """Record switches to sliding and first detachments in a row; list blocks released from rest.
 
     Scratch holds w·v of each block: negative if it has reversed, zero if it was at rest. Returns
     the switches, and the number of blocks released so far.
     """
-    switches, i = np.int64(0), row * band.grid.pitch
+    switches, from_rest = np.int64(0), False
+    i, t_det = row * band.grid.pitch, blocks.t_det
     for x in range(ONE, band.grid.n_x + ONE):
-        b, vx, vy = i + x, blocks.vx[i + x], blocks.vy[i + x]
-        if blocks.static[b] == 0.0 or (vx == 0.0 and vy == 0.0) or s.row[TURNS + x] > 0.0:
-            continue
-        switches += 1
-        blocks.t_det[b] = min(blocks.t_det[b], now)
-        if s.row[TURNS + x] == 0.0:
-            released.row[count], released.x[count] = np.int64(row), np.int64(x)
-            released.ax[count], released.ay[count] = vx, vy
-            count += 1
+        b = i + x
+        slides = ((blocks.vx[b] != 0.0) | (blocks.vy[b] != 0.0)) & (blocks.static[b] > 0.0)
+        switched = slides & (s.row[TURNS + x] <= 0.0)
+        switches += np.int64(switched)
+        t_det[b] = now if switched & (t_det[b] > now) else t_det[b]
+        from_rest = from_rest | (slides & (s.row[TURNS + x] == 0.0))
+    if from_rest:
+        count = _list_releases(blocks, released, count, band, s, row)
     return switches, count
 
 
@@ -224,9 +239,9 @@ def _reconstruct_displacements(blocks, law, released, row, x, constants, slider)
             # Friction acted along v + w ∥ (1 + a) v⁺ - f, on the side of v⁺.
             mean_x, mean_y = (1.0 + a) * vx - fx, (1.0 + a) * vy - fy
             size, forwards = math.hypot(mean_x, mean_y), mean_x * vx + mean_y * vy
-            state = state_before(law, state_of(law, b), math.hypot(vx, vy))
-            speed, share = math.copysign(size, forwards) / (2.0 * a), 1.0 / (2.0 * a)
-            friction = resistance(law, state, speed, share, blocks.static[b], blocks.dynamic[b])
+            kept, slope = row_before(law, b), 1.0 / (2.0 * a)
+            speed = math.copysign(size, forwards) / (2.0 * a)
+            friction = resistance(law, kept, speed, slope, blocks.static[b], blocks.dynamic[b])
             scale = math.copysign(friction / size, forwards)
             before[0, j, i] -= (vx + scale * mean_x - fx) / a
             before[1, j, i] -= (vy + scale * mean_y - fy) / a
@@ -246,9 +261,8 @@ def place_releases(blocks, law, rows, released, count, constants, k):
         row, x = released.row[m], released.x[m]
         b = index_of(row, x, constants.grid)
         _reconstruct_displacements(blocks, law, released, row, x, constants, slider)
-        moved = math.hypot(released.ax[m], released.ay[m])
-        state = state_at_release(law, state_of(law, b), moved)
-        threshold = threshold_of(law, state, blocks.static[b], blocks.dynamic[b])
+        kept = row_at_release(law, b)
+        threshold = threshold_of(law, kept, blocks.static[b], blocks.dynamic[b])
         released.theta[m] = release_theta(released, threshold, springs, slider, slide)
     for m in range(count):
         row, theta = released.row[m], released.theta[m]
@@ -268,9 +282,9 @@ def place_releases(blocks, law, rows, released, count, constants, k):
         rows.y[row] += further * ay
         a2 = ax * ax + ay * ay
         a1 = math.sqrt(a2)
-        state = state_at_release(law, state_of(law, b), a1)
-        friction = resistance(law, state, 0.5 * a1, 0.0, blocks.static[b], blocks.dynamic[b])
-        store_state(law, b, state, (slip + speed) * a1, True)
+        kept = row_at_release(law, b)
+        friction = resistance(law, kept, 0.5 * a1, 0.0, blocks.static[b], blocks.dynamic[b])
+        store_state(law, b, kept, (slip + speed) * a1, True)
         work = friction * a1 * (slip + 0.5 * (theta - 0.5))  # along s + (θ_ε - 1/2) a/2
         extra = a2 * (0.125 - epsilon / 8.0 - 0.5 * stiffness * slip * slip)  # Q of (12)
         rows.heat[row] += work + extra
@@ -287,7 +301,7 @@ def _steps_at_rest(blocks, law, s, own, i, n, pull):
     least = np.inf
     for x in range(ONE, n + ONE):
         b, fx, fy = i + x, s.force[FORCE_X + own + x], s.force[FORCE_Y + own + x]
-        strength = strength_of(law, state_of(law, b), blocks.static[b], blocks.dynamic[b])
+        strength = strength_of(law, b, blocks.static[b], blocks.dynamic[b])
         least = min(least, strength - math.sqrt(fx * fx + fy * fy))
     return np.int64(min((1.0 - _SLACK) * least / pull, _FOREVER))
 
@@ -378,7 +392,7 @@ def _time_loop(state, constants, first, steps, every, samples, rows, released):
 
 
 def advance(
-    state: State, constants: Constants, first: int, steps: int, every: int, samples: Samples
+    state: Lattice, constants: Constants, first: int, steps: int, every: int, samples: Samples
 ) -> tuple[int, int, int]:
     """Advance a state on one core; arguments as of `Advance`.
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from springblock.solver.compilation import kernel
-from springblock.solver.lattice import Constants, Samples, State, band_from, close_rows, tally
+from springblock.solver.lattice import Constants, Lattice, Samples, band_from, close_rows, tally
 from springblock.solver.leapfrog import make_rows, move_band, place_releases, totals, wake
 from springblock.solver.release import Releases, make_releases
 from springblock.solver.springs import ONE, Band, Scratch, U, forces_on_band
@@ -89,7 +89,7 @@ def _move_part(blocks, law, peak, rows, constants, slider, now, part):
 
 
 def advance(
-    state: State,
+    state: Lattice,
     constants: Constants,
     first: int,
     steps: int,

@@ -21,8 +21,8 @@ from springblock.solver.compilation import add, kernel
 from springblock.solver.lattice import (
     HEAT,
     Constants,
+    Lattice,
     Samples,
-    State,
     Totals,
     band_from,
     close_edge,
@@ -31,7 +31,7 @@ from springblock.solver.lattice import (
     tally,
     update_peaks,
 )
-from springblock.solver.laws import resistance, state_of, store_state
+from springblock.solver.laws import resistance, row_at_release, store_stage, store_state
 from springblock.solver.release import make_releases, release_theta
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
 
@@ -68,7 +68,7 @@ def force_time(step: float, gamma: float) -> float:
     return step
 
 
-def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, float]:
+def at_step(state: Lattice, constants: Constants, steps: int) -> tuple[Array, float]:
     """Velocity (2, lattice) after `steps` steps, in l per step, and the frictional heat so far."""
     return np.stack([state.blocks.vx, state.blocks.vy]), float(state.ledger[HEAT])
 
@@ -113,9 +113,9 @@ def _begin_step(blocks, law, stage, released, count, band, s, damping, now):
             fx, fy = s.force[FORCE_X + own + x], s.force[FORCE_Y + own + x]
             rests = vx[b] == 0.0 and vy[b] == 0.0
             half_x, half_y = (0.5 * fx, 0.5 * fy) if rests else (vx[b], vy[b])
-            speed, slip = math.sqrt(half_x * half_x + half_y * half_y), state_of(law, b)
-            share = -0.5 if rests else 0.0  # see `laws.resistance`
-            friction = resistance(law, slip, speed, share, static[b], dynamic[b])
+            speed = math.sqrt(half_x * half_x + half_y * half_y)
+            slope = -0.5 if rests else 0.0  # see `laws.resistance`
+            friction = resistance(law, b, speed, slope, static[b], dynamic[b])
             ex[b], ey[b] = _friction_direction(
                 law, fx, fy, vx[b], vy[b], static[b], friction, damping
             )
@@ -123,7 +123,7 @@ def _begin_step(blocks, law, stage, released, count, band, s, damping, now):
                 t_det[b] = min(t_det[b], now)
                 excess = fx * ex[b] + fy * ey[b] - friction
                 ax, ay = excess * ex[b], excess * ey[b]
-                store_state(law, b, 0.0, 0.125 * excess, True)
+                store_state(law, b, row_at_release(law, b), 0.125 * excess, True)
                 vx[b], vy[b] = 0.5 * ax, 0.5 * ay
                 stage.vx[b], stage.vy[b] = vx[b], vy[b]
                 stage.dx[b], stage.dy[b] = 0.125 * ax, 0.125 * ay
@@ -170,7 +170,7 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
     for m in range(count):
         b = index_of(released.row[m], released.x[m], constants.grid)
         blocks.vx[b], blocks.vy[b] = 0.0, 0.0  # at rest before the step, for its neighbours
-        store_state(law, b, 0.0, 0.0, False)
+        store_state(law, b, b, 0.0, False)
     for m in range(count):
         row, x = released.row[m], released.x[m]
         b = index_of(row, x, constants.grid)
@@ -189,7 +189,7 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
         stage.dx[b] += further * released.ax[m]
         stage.dy[b] += further * released.ay[m]
         speed = math.hypot(released.ax[m], released.ay[m])
-        friction = resistance(law, 0.0, 0.5 * speed, 0.0, blocks.static[b], blocks.dynamic[b])
+        friction = resistance(law, b, 0.5 * speed, 0.0, blocks.static[b], blocks.dynamic[b])
         heat += friction * (0.125 + further) * speed
     return heat
 
@@ -197,10 +197,11 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
 @njit(inline="always")
 def _friction_in_stage(blocks, law, stage, b):
     """Friction of block b at the slip and the speed of the current stage."""
-    ex, ey, slip = stage.ex[b], stage.ey[b], state_of(law, b)
-    slip += (stage.ux[b] - blocks.ux[b]) * ex + (stage.uy[b] - blocks.uy[b]) * ey
+    ex, ey = stage.ex[b], stage.ey[b]
+    moved = (stage.ux[b] - blocks.ux[b]) * ex + (stage.uy[b] - blocks.uy[b]) * ey
     speed = abs(stage.vx[b] * ex + stage.vy[b] * ey)
-    return resistance(law, slip, speed, 0.0, blocks.static[b], blocks.dynamic[b])
+    now = store_stage(law, b, moved)
+    return resistance(law, now, speed, 0.0, blocks.static[b], blocks.dynamic[b])
 
 
 @kernel
@@ -265,9 +266,9 @@ def _finish_step(blocks, law, stage, grid, heat, squares):
             new_x, new_y = vx[b] + qu[b], vy[b] + qv[b]
             turned = (static[b] > 0.0) & (new_x * ex[b] + new_y * ey[b] <= 0.0)
             lost = 0.5 * (new_x * new_x + new_y * new_y)  # kinetic energy of a block that reverses
-            slip, further = state_of(law, b), du[b] * ex[b] + dv[b] * ey[b]
+            further = du[b] * ex[b] + dv[b] * ey[b]
             work = blocks.dynamic[b] * further if law is None else 0.0
-            store_state(law, b, slip, further, not turned)
+            store_state(law, b, b, further, not turned)
             heat_of_row = add(heat_of_row, work + (lost if turned else 0.0))
             new_x, new_y = 0.0 if turned else new_x, 0.0 if turned else new_y
             next_x, next_y = ux[b] + du[b], uy[b] + dv[b]
@@ -312,7 +313,7 @@ def _time_loop(state, stage, constants, first, steps, every, samples, every_row,
 
 
 def advance(
-    state: State, constants: Constants, first: int, steps: int, every: int, samples: Samples
+    state: Lattice, constants: Constants, first: int, steps: int, every: int, samples: Samples
 ) -> tuple[int, int, int]:
     """Advance a state on one core; arguments as of `Advance`."""
     (n_y, n_x), stage = constants.grid.shape, Stage(*state.work)

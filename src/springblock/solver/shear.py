@@ -6,12 +6,12 @@ import numpy as np
 
 from springblock.model.numbers import Array
 from springblock.solver.compilation import kernel
-from springblock.solver.lattice import Constants, State, band_from, close_rows
-from springblock.solver.laws import resistance, state_of
+from springblock.solver.lattice import Constants, Lattice, band_from, close_rows
+from springblock.solver.laws import resistance
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, Scratch, U, forces_on_band
 
 
-def shear_forces(state: State, constants: Constants, steps: int, velocity: Array) -> Array:
+def shear_forces(state: Lattice, constants: Constants, steps: int, velocity: Array) -> Array:
     """Force of each block on the substrate after `steps` steps, (2, lattice), in kernel units.
 
     `velocity`, (2, lattice), is that of the same instant. A block at rest exerts F_mot, one that
@@ -44,6 +44,5 @@ def _enter(blocks, law, constants, slider, velocity, every_row, s, force):
                         s.force[FORCE_Y + own + x],
                     )
                 elif static > 0.0:
-                    slip = state_of(law, b)
-                    friction = resistance(law, slip, speed, 0.0, static, blocks.dynamic[b])
+                    friction = resistance(law, b, speed, 0.0, static, blocks.dynamic[b])
                     force[0, b], force[1, b] = friction * vx / speed, friction * vy / speed
