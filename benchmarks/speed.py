@@ -35,8 +35,9 @@ from springblock.model.defaults import SAMPLE_INTERVAL
 from springblock.model.scene import Scene
 from springblock.provenance import code_version
 from springblock.simulation.setup import PAPER
-from springblock.solver.integrators import INTEGRATORS, on_cores
+from springblock.solver.integrators import INTEGRATORS
 from springblock.solver.lattice import Samples, prepare, unpadded
+from springblock.solver.loop import advance
 
 N = 120
 STEPS = 300  #: of a kernel in one repetition, some 50 ms
@@ -82,8 +83,8 @@ class Solver:
 
     def advance(self, steps: int, cores: int = 1) -> None:
         """Take so many steps."""
-        advance, samples = on_cores(self.integrator, cores), Samples.empty(1)
-        advance(self.state, self.constants, self.taken, steps, steps, samples)
+        how = INTEGRATORS[self.integrator], self.state, self.constants
+        advance(*how, self.taken, steps, steps, Samples.empty(1), cores)
         self.taken += steps
 
 

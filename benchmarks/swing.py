@@ -8,6 +8,7 @@ from springblock.model.surface import Surface
 from springblock.simulation.motion import SimulationError
 from springblock.solver.integrators import INTEGRATORS
 from springblock.solver.lattice import Samples, close_edges, prepare, unpadded
+from springblock.solver.loop import advance
 
 Array = NDArray[np.float64]
 
@@ -33,7 +34,7 @@ def swing(
     for field, u in zip((blocks.ux, blocks.uy), displacement, strict=True):
         unpadded(field, grid)[:] = u
     close_edges(blocks.ux, blocks.uy, grid)
-    done = method.advance(state, constants, 0, steps, steps, Samples.empty(1))[0]
+    done = advance(method, state, constants, 0, steps, steps, Samples.empty(1))[0]
     if done < steps:
         raise SimulationError(f"a spring has collapsed or burst in step {done}")
     return np.stack([unpadded(u, grid) for u in (blocks.ux, blocks.uy)])

@@ -10,11 +10,11 @@ import numpy as np
 
 from benchmarks.timing import Missing
 from springblock import Material, Pattern, Surface, draw_friction
-from springblock.solver.integrators import INTEGRATORS
+from springblock.solver.integrators import LEAPFROG
 from springblock.solver.lattice import Samples, prepare, unpadded
+from springblock.solver.loop import advance
 from springblock.solver.springs import Springs
 
-LEAPFROG = INTEGRATORS["leapfrog"]
 _INT, _DOUBLE, _ARRAY = ctypes.c_int, ctypes.c_double, np.ctypeslib.ndpointer(float)
 #: Largest difference from the solver after CHECK_STEPS, relative to the largest value.
 TOLERANCE = 1e-9
@@ -94,7 +94,7 @@ def differences(step: float = 1e-8) -> dict[str, float]:
         blocks, samples = state.blocks, Samples.empty(CHECK_STEPS)
         ours = [unpadded(field, constants.grid) for field in blocks]
         ours[2][:], ours[3][:] = velocity
-        LEAPFROG.advance(state, constants, 0, CHECK_STEPS, 1, samples)
+        advance(LEAPFROG, state, constants, 0, CHECK_STEPS, 1, samples)
         if surface is pulled:
             pairs["first detachment"] = loop.t_det.min(), np.ceil(blocks.t_det.min())
     # Of the last surface, the thrown blocks.

@@ -5,6 +5,7 @@ import pytest
 
 from springblock import Material, Pattern, Setup, Surface, draw_friction, simulate
 from springblock.simulation.fields import BlockState
+from springblock.solver.integrators import INTEGRATORS
 
 PAPER = Material()
 ONE = Surface([[True]], mu_static=1.0, mu_dynamic=0.6)
@@ -20,7 +21,7 @@ def threshold(material=PAPER, mu=1.0):
     return mu * material.block_load / material.spacing**2
 
 
-@pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
+@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_a_block_bears_what_the_slider_pulls_until_it_slides(integrator):
     """To rounding: at rest τ l² = K_s v t, which is what F_mot is without neighbours."""
     thick = Material(thickness=1.5 * PAPER.thickness)

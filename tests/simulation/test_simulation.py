@@ -20,13 +20,14 @@ from springblock import (
 )
 from springblock.model.defaults import STEP
 from springblock.simulation.run import first_minimum, percent
+from springblock.solver.integrators import INTEGRATORS, limit
 from springblock.specification import follow
 
 PAPER = Material()
 N = 12
 PILLARS = Pattern.pillars(N, 4, 2)
 PAUSE = 10  #: sample intervals between two looks at whether the run may end
-STABLE = {"leapfrog": 2.0 / PAPER.omega_max, "rk4": math.sqrt(8.0) / PAPER.omega_max}
+STABLE = {name: limit(name, PAPER) for name in INTEGRATORS}
 
 
 @pytest.fixture(scope="module")
@@ -328,7 +329,6 @@ def test_a_drawn_surface_takes_any_other_constant():
 
 @pytest.mark.parametrize("integrator", STABLE)
 def test_a_step_is_stable_up_to_the_limit_of_the_highest_mode(integrator):
-    """2/omega_max for leapfrog, 2√2/omega_max for Runge-Kutta; gamma h/2 is 3e-4 here."""
     below, above = 0.999 * STABLE[integrator], 1.001 * STABLE[integrator]
     assert pull(integrator=integrator, step=below, sample_interval=below).steps > 0
     with pytest.raises(ValueError, match=rf"unstable: {integrator} needs less than") as refusal:

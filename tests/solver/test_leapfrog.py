@@ -7,7 +7,9 @@ import pytest
 
 from springblock import Material, Pattern, Surface, draw_friction
 from springblock.solver import leapfrog
+from springblock.solver.integrators import LEAPFROG
 from springblock.solver.lattice import Samples, band_from, prepare
+from springblock.solver.loop import advance
 from springblock.solver.springs import Scratch
 
 STEP, EVERY = 2e-8, 10
@@ -36,12 +38,12 @@ def start(contact, seed, keep_peak=False, material=FAST, periodic=False):
     n_y, n_x = contact.shape
     mu = (field[:n_y, :n_x] for field in draw_friction(max(n_y, n_x), seed))
     surface = Surface(contact, *mu, periodic=periodic)
-    return prepare(surface, material, (0.8, 0.6), leapfrog, STEP, keep_peak)
+    return prepare(surface, material, (0.8, 0.6), LEAPFROG, STEP, keep_peak)
 
 
 def follow(state, constants, steps):
     samples = Samples.empty(steps // EVERY)
-    assert leapfrog.advance(state, constants, 0, steps, EVERY, samples)[0] == steps
+    assert advance(LEAPFROG, state, constants, 0, steps, EVERY, samples)[0] == steps
     return samples
 
 
@@ -82,7 +84,7 @@ def test_skipping_rows_at_rest_changes_no_bit_under_weakening_friction(surface, 
     restless, constants = start(SURFACES[surface], 0, material=WEAKENING[law])
     quick, _ = start(SURFACES[surface], 0, material=WEAKENING[law])
     for k in range(4000):
-        leapfrog.advance(restless, constants, k, 1, 1, Samples.empty(1))
+        advance(LEAPFROG, restless, constants, k, 1, 1, Samples.empty(1))
     follow(quick, constants, 4000)
     assert np.isfinite(restless.blocks.t_det).any()
     assert_same_to_the_bit(restless.blocks, quick.blocks, MOTION)

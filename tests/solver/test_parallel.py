@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from springblock import Material, Pattern, Setup, Surface, compute_prelude, draw_friction, simulate
-from springblock.solver import leapfrog, parallel
+from springblock.solver.integrators import LEAPFROG
 from springblock.solver.lattice import Samples, prepare
+from springblock.solver.loop import advance
 
 SURFACES = {
     "flat": Pattern.flat(30).contact,
@@ -27,7 +28,7 @@ def start(name, band_rows, periodic=False):
         Surface(contact, *coefficients, periodic=periodic),
         (np.cos(0.3), np.sin(0.3)),
     )
-    state, constants = prepare(surface, FAST, heading, leapfrog, step)
+    state, constants = prepare(surface, FAST, heading, LEAPFROG, step)
     return state, constants._replace(band_rows=np.uint64(band_rows))
 
 
@@ -38,8 +39,8 @@ def test_every_bit_is_as_on_one_core(name, periodic, band_rows, cores):
     """With one, two or more bands per share."""
     alone, together = (start(name, band_rows, periodic=periodic) for _ in range(2))
     samples, others = (Samples.empty(STEPS // EVERY) for _ in range(2))
-    assert leapfrog.advance(*alone, 0, STEPS, EVERY, samples) == (STEPS, -1, -1)
-    assert parallel.advance(*together, 0, STEPS, EVERY, others, cores) == (STEPS, -1, -1)
+    assert advance(LEAPFROG, *alone, 0, STEPS, EVERY, samples) == (STEPS, -1, -1)
+    assert advance(LEAPFROG, *together, 0, STEPS, EVERY, others, cores) == (STEPS, -1, -1)
     for one, other in zip(
         (*alone[0].blocks, alone[0].ledger, *samples),
         (*together[0].blocks, together[0].ledger, *others),
@@ -66,7 +67,7 @@ def test_a_broken_spring_is_found_wherever_it_is(row, cores, column):
     """In the first band of a share, in its last one, and between them."""
     state, constants = start("flat", 2)
     state.blocks.ux.reshape(30, -1)[row, column] = np.nan
-    done, y, x = parallel.advance(state, constants, 0, 10, 10, Samples.empty(1), cores)
+    done, y, x = advance(LEAPFROG, state, constants, 0, 10, 10, Samples.empty(1), cores)
     assert done == 0
     assert abs(y - row) <= 1
     assert x == max(column - 2, 0)  # its western neighbour tears, too, and comes first

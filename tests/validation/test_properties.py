@@ -17,8 +17,7 @@ from springblock import (
     simulate,
 )
 from springblock.accuracy.stability.cases import Pull
-from springblock.solver.integrators import INTEGRATORS
-from springblock.solver.stability import limit
+from springblock.solver.integrators import INTEGRATORS, limit
 from validation.test_surfaces import assert_moved, moved
 
 LOADING = 200  #: steps until a block without neighbours would detach

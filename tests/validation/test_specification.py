@@ -22,6 +22,7 @@ from springblock.model.law import LawFile
 from springblock.solver.integrators import INTEGRATORS
 from springblock.solver.lattice import HEAT, SQUARES, WORK, Samples, prepare, unpadded
 from springblock.solver.law_file import FromFile
+from springblock.solver.loop import advance
 
 STEP, ANGLE = 2e-8, 30.0
 #: Loads a hundred times faster than the paper's: blocks soon detach, stop and detach again.
@@ -85,7 +86,8 @@ class Kernel:
         """Take a step; what the ledger holds is of this step alone."""
         samples = Samples.empty(1)
         self.state.ledger[:] = 0.0
-        assert self.integrator.advance(self.state, self.constants, self.k, 1, 1, samples)[0] == 1
+        how = self.integrator, self.state, self.constants
+        assert advance(*how, self.k, 1, 1, samples)[0] == 1
         self.k += 1
         return self.seen(int(samples.switches[0]))
 
@@ -136,10 +138,10 @@ def test_each_step_is_that_of_the_specification(integrator, law, name, periodic)
     surface = scattered(contact, material, periodic)
     kernel = Kernel(surface, material, integrator)
     model = specification.Problem(surface, Setup(material, integrator, STEP), ANGLE)
-    advance = specification.SCHEMES[integrator]
+    step = specification.SCHEMES[integrator]
     here, switches = kernel.seen(), 0
     for _ in range(150 * contact.size // contact.sum()):
-        exact = advance(model, replace(here, switches=0, work=0.0, heat=0.0, path=0.0))
+        exact = step(model, replace(here, switches=0, work=0.0, heat=0.0, path=0.0))
         here = kernel.advance()
         speed = max(np.abs(here.v).max(), material.slider_velocity)
         assert_same(here.u, exact.u, STEP * speed, "displacement")

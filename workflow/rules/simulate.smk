@@ -1,3 +1,5 @@
+from springblock.solver.integrators import INTEGRATORS
+
 # From scenes to realisations and their table. The rule `simulate` stands for all jobs of `simulate_batch`,
 # and `fields` for those of `fields_of_scene`.
 
@@ -12,7 +14,7 @@ HOW = " ".join(
 #: Integrators and laws of friction that are compiled before any job needs them.
 COMPILED = {setup.integrator for setup in SETUPS.values()}
 if config["accuracy"]:
-    COMPILED |= {"leapfrog", "rk4"}
+    COMPILED |= set(INTEGRATORS)
 LAWS = {str(getattr(setup.material.law, "file", setup.material.law)) for setup in SETUPS.values()}
 #: Cuts of measured surfaces, by the name of the mask.
 MASKS = [ensemble.scene.mask for ensemble in ENSEMBLE.values() if ensemble.scene.mask]

@@ -78,7 +78,7 @@ STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9)
 SETTLED_STEPS = STEPS[3:]  #: errors fall with one order, on patterned surfaces too
 PLAIN_STEPS = STEPS[:4]  #: enough to show that errors hardly decrease
 #: By one step of each method.
-FORCE_EVALUATIONS = {name: each.FORCE_EVALUATIONS for name, each in INTEGRATORS.items()}
+FORCE_EVALUATIONS = {name: each.force_evaluations for name, each in INTEGRATORS.items()}
 FORCE_EVALUATIONS[PLAIN] = 4
 PAIRED_SEEDS = {"rk4": 50, PLAIN: 20}  #: at most; fewer where a step costs more
 FINE_STEP = 5e-9  #: at second order, it has a quarter of the error of the paper's

@@ -100,6 +100,6 @@ def _digest(arrays: dict[str, NDArray[Any]]) -> str:
 
 
 def _fields(state: Lattice) -> list[NDArray[Any]]:
-    """Return all fields that determine the rest of a run; scratch arrays are not among them."""
+    """Return all fields that determine the rest of a run."""
     of_law = [part for part in state.law or () if isinstance(part, np.ndarray)]
-    return [*state.blocks, *state.work, state.ledger, *of_law]
+    return [*state.blocks, state.ledger, *of_law]

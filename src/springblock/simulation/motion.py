@@ -5,12 +5,13 @@ from typing import Any
 import numpy as np
 
 from springblock.model.direction import heading
-from springblock.model.numbers import Array
+from springblock.model.numbers import Array, check_whole
 from springblock.model.surface import Surface
 from springblock.simulation.setup import Setup
-from springblock.solver.integrators import INTEGRATORS, on_cores
+from springblock.solver.integrators import INTEGRATORS
 from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.solver.law_file import FromFile
+from springblock.solver.loop import advance, at_step
 
 
 class SimulationError(RuntimeError):
@@ -32,7 +33,9 @@ class Motion:
         keep_peak: bool = False,
     ) -> None:
         self.setup, self.method = setup, INTEGRATORS[setup.integrator]
-        self.advance = on_cores(setup.integrator, cores)
+        self.cores = check_whole("cores", cores)
+        if cores > 1 and not self.method.uses_cores:
+            raise ValueError(f"cores must be 1 with {setup.integrator}, not {cores}")
         how = setup.material, heading(direction), self.method, setup.step, keep_peak
         self.state, self.constants = prepare(surface, *how)
         self.samples = 0  #: recorded so far, without the initial one
@@ -56,9 +59,8 @@ class Motion:
             return
         every, more, first = self.setup.every, until - self.samples, self.steps
         taken = Samples.empty(more)
-        done, row, column = self.advance(
-            self.state, self.constants, first, more * every, every, taken
-        )
+        how = self.method, self.state, self.constants
+        done, row, column = advance(*how, first, more * every, every, taken, self.cores)
         now, law = (first + done) * self.setup.step, self.state.law
         if isinstance(law, FromFile) and law.failed[0] >= 0:
             raise SimulationError(f"before t = {now:.4g} s: {self._failure(law)}")
@@ -91,6 +93,10 @@ class Motion:
     def recorded(self) -> Samples:
         """Samples so far, in the kernels' units."""
         return Samples(*map(np.concatenate, zip(*self.record, strict=True)))
+
+    def at_step(self) -> tuple[Array, float]:
+        """Velocity (2, lattice) in l per step at this time, and the frictional heat so far."""
+        return at_step(self.method, self.state, self.constants, self.steps)
 
     def displacement(self) -> Array:
         """(2, N_y, N_x) m."""

@@ -12,7 +12,7 @@ from springblock.model.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.model.law import LawFile
 from springblock.model.material import Material
 from springblock.model.numbers import check_real
-from springblock.solver.stability import IS_STABLE, is_stable, limit
+from springblock.solver.integrators import INTEGRATORS, is_stable, limit
 
 PAPER = Material()
 #: Least number of samples while a flat surface is loaded: with fewer, static friction, the largest
@@ -69,15 +69,15 @@ class Setup:
 
     def __post_init__(self) -> None:
         check_type("material", self.material, Material)
-        if self.integrator not in IS_STABLE:
-            known = ", ".join(IS_STABLE)
+        if self.integrator not in INTEGRATORS:
+            known = ", ".join(INTEGRATORS)
             raise ValueError(f"integrator must be one of {known}, not {self.integrator!r}")
         check_real("step", self.step)
         law = self.material.law
         if isinstance(law, LawFile):
             law.check(self.material.mu_static, self.material.mu_dynamic, self.step)
         lasting = self.material.healing == "none"
-        if self.integrator != "leapfrog" and (lasting or isinstance(law, LawFile)):
+        if (lasting or isinstance(law, LawFile)) and not INTEGRATORS[self.integrator].keeps_state:
             what = "healing none" if lasting else f"the law {law}"
             raise ValueError(f"integrator must be leapfrog with {what}, not {self.integrator!r}")
         if not is_stable(self.integrator, self.step, self.material):

@@ -155,7 +155,7 @@ def _is_over(motion: Motion, last_sample: int | None, latest: float) -> bool:
 def _snapshot(motion: Motion) -> Array:
     """Displacement, velocity and stress of `Fields`, (3, 2, N_y, N_x)."""
     state, constants, setup = motion.state, motion.constants, motion.setup
-    own, _ = motion.method.at_step(state, constants, motion.steps)
+    own, _ = motion.at_step()
     force = motion.newton * motion.vectors(*shear_forces(state, constants, motion.steps, own))
     velocity = motion.vectors(*own) * setup.material.spacing / setup.step
     return np.stack([motion.displacement(), velocity, force / setup.material.spacing**2])
@@ -169,7 +169,7 @@ def _result(motion: Motion, snapshots: list[Array], at_samples: list[int]) -> Re
     t_det = unpadded(blocks.t_det, grid)  # in steps
     detached_in = np.ceil(t_det[np.isfinite(t_det)]).astype(np.int64) // setup.every + 1
     time = setup.every * step * np.arange(motion.samples + 1.0)
-    velocity, heat = motion.method.at_step(motion.state, motion.constants, motion.steps)
+    velocity, heat = motion.at_step()
     velocity = motion.vectors(*velocity) * material.spacing / step
     force_x, force_y, switches = motion.recorded()
     energy = _energy(motion, velocity, heat)

@@ -21,7 +21,7 @@ from typing import Any
 import llvmlite.binding
 import numba
 from numba import njit, types
-from numba.extending import intrinsic
+from numba.extending import intrinsic, overload
 
 _LOG = logging.getLogger(__name__)
 
@@ -233,3 +233,24 @@ def add(typingctx, total, term):
         return builder.fadd(*arguments, flags=("reassoc", "nsz"))
 
     return types.float64(types.float64, types.float64), generate
+
+
+def method(name: str, usual: type = object) -> Any:
+    """Return the function that calls the static method `name` of its first argument, a NamedTuple.
+
+    None, and a class without this method, have that of `usual`. Compiled callers choose when they
+    are compiled, and LLVM inlines the method; if numba inlined it instead, assignments to arrays
+    of the tuple would be lost.
+    """
+
+    def own(kind: type) -> Any:
+        return getattr(kind, name, None) or getattr(usual, name)
+
+    def chosen(first, *others):
+        return own(type(first))(first, *others)
+
+    @overload(chosen, strict=False)
+    def compiled(first, *others):
+        return own(getattr(first, "instance_class", usual))
+
+    return chosen

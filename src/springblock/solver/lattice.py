@@ -6,10 +6,8 @@ Lengths are in l, velocities in l per step, times in steps, and forces in the ve
 in one step.
 """
 
-from collections.abc import Callable
 from copy import deepcopy
 from itertools import count
-from types import ModuleType
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +18,7 @@ from springblock.model.material import Material
 from springblock.model.numbers import Array
 from springblock.model.surface import Surface
 from springblock.solver.compilation import kernel
+from springblock.solver.integrators import Integrator
 from springblock.solver.laws import KernelLaw, law_of
 from springblock.solver.springs import (
     FORCE_X,
@@ -28,7 +27,6 @@ from springblock.solver.springs import (
     ONE,
     Band,
     Grid,
-    Scratch,
     Springs,
     U,
     aligned,
@@ -54,11 +52,9 @@ class Blocks(NamedTuple):
 
 
 class Lattice(NamedTuple):
-    """State of the lattice, and the work arrays of an integrator."""
+    """State of the lattice."""
 
     blocks: Blocks
-    scratch: Scratch
-    work: tuple[Array, ...]  #: work fields of the integrator
     ledger: Array  #: (3,) sums over steps, see `WORK`
     peak: Array | None  #: running maximum of |F_mot|², for a prelude only
     in_contact: NDArray[np.bool_]  #: (N_y,) whether a row holds any block in contact
@@ -102,12 +98,6 @@ class Samples(NamedTuple):
         return cls(np.zeros(count), np.zeros(count), np.zeros(count, np.int64))
 
 
-#: Function that advances a state by `steps` steps from step `first` on, and samples after every
-#: `every` steps: (state, constants, first, steps, every, samples) -> number of steps taken, and row
-#: and column of a broken spring, -1 if none is.
-Advance = Callable[[Lattice, Constants, int, int, int, Samples], tuple[int, int, int]]
-
-
 #: Threshold of a contact block with mu_s = 0: not zero, which stands for no contact.
 _NO_THRESHOLD = 1e-300
 
@@ -116,13 +106,13 @@ def prepare(
     surface: Surface,
     material: Material,
     heading: tuple[float, float],
-    integrator: ModuleType,
+    integrator: Integrator,
     step: float,
     keep_peak: bool = False,
 ) -> tuple[Lattice, Constants]:
     """Return state and constants of a run in the kernels' units, at rest and unstrained.
 
-    `heading` is the unit vector of the slider velocity; `integrator` is one of `integrators`.
+    `heading` is the unit vector of the slider velocity.
     """
     contact, periodic = surface.contact, surface.periodic
     grid = Grid.of(contact.shape, periodic)
@@ -152,8 +142,6 @@ def prepare(
     )
     state = Lattice(
         blocks=blocks,
-        scratch=Scratch.empty(),
-        work=tuple(field() for _ in range(integrator.WORK_FIELDS)),
         ledger=np.zeros(3),
         peak=field() if keep_peak else None,
         in_contact=np.asarray(contact.any(axis=1)),
@@ -184,6 +172,12 @@ def band_from(start, constants):
     """Return the band that begins with row `start`."""
     grid = constants.grid
     return Band(start, min(start + constants.band_rows, grid.n_y), grid)
+
+
+@njit(inline="always")
+def slider_at(constants, k):
+    """Return the slider's displacement after k steps."""
+    return constants.slider_x * k, constants.slider_y * k
 
 
 @njit(inline="always")

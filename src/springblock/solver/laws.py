@@ -26,16 +26,15 @@ step, and V the mean speed of that step.
 """
 
 import math
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numba.extending import overload
 from numpy.typing import NDArray
 
 from springblock.model.law import LawFile
 from springblock.model.material import Material
 from springblock.model.numbers import Array
+from springblock.solver.compilation import method
 from springblock.solver.law_file import FromFile, from_file
 from springblock.solver.springs import aligned
 
@@ -177,45 +176,25 @@ def law_of(material: Material, step: float, load: float, contact: NDArray[np.boo
     return None
 
 
-def _of_law(name: str) -> Callable[..., Any]:
-    """Return the function that calls the law's own one of this name.
-
-    Compiled callers choose when they are compiled, and LLVM inlines the function; if numba inlined
-    it instead, assignments to the state would be lost.
-    """
-
-    def own(law: type) -> Any:
-        return getattr(law, name, getattr(Coulomb, name))
-
-    def chosen(law, *arguments):
-        return own(type(law))(law, *arguments)
-
-    @overload(chosen, strict=False)
-    def compiled(law, *arguments):
-        return own(getattr(law, "instance_class", Coulomb))
-
-    return chosen
-
-
 #: (law, row, speed, slope, static, dynamic) -> T at the mean speed V = speed + slope T, where
 #: `speed` is that without friction: the slope is -β in the leapfrog, see `friction`, and 0 if V is
 #: known. T is infinite if no V solves the equation: the block stops.
-resistance = _of_law("resistance")
+resistance = method("resistance", Coulomb)
 #: (law, row, speed, static, dynamic) -> weight β: friction is evaluated at (1 - β) v + β v⁺, with v
 #: and v⁺ before and after the step. β is 1/2, or more where friction rises steeply with speed.
-end_weight = _of_law("end_weight")
+end_weight = method("end_weight", Coulomb)
 #: (law, row, static, dynamic) -> largest force on a block at rest, or that reverses, which holds
 #: it: mu_s F_n, unless it has lost strength.
-strength_of = _of_law("strength_of")
+strength_of = method("strength_of", Coulomb)
 #: (law, row, static, dynamic) -> threshold of the force on a block at rest, F_c.
-threshold_of = _of_law("threshold_of")
+threshold_of = method("threshold_of", Coulomb)
 #: (law, b) -> row with the state of block b one step before.
-row_before = _of_law("row_before")
+row_before = method("row_before", Coulomb)
 #: (law, b) -> row with the state of block b at its release in the last step.
-row_at_release = _of_law("row_at_release")
+row_at_release = method("row_at_release", Coulomb)
 #: (law, b, row, moved, slides): store the state of block b after a step from the state in `row`, in
 #: which it slipped by `moved`, and keep that which it had.
-store_state = _of_law("store_state")
+store_state = method("store_state", Coulomb)
 #: (law, b, moved) -> row with the state of block b after a part of a step, in which it slipped by
 #: `moved`; for `rk4`, which does not use the state one step before.
-store_stage = _of_law("store_stage")
+store_stage = method("store_stage", Coulomb)

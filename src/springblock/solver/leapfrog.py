@@ -22,16 +22,14 @@ from springblock.model.numbers import Array
 from springblock.solver.compilation import add, kernel
 from springblock.solver.friction import apply_friction
 from springblock.solver.lattice import (
-    HEAT,
     Constants,
     Lattice,
-    Samples,
     Totals,
     band_from,
     close_edge,
     close_rows,
     index_of,
-    tally,
+    slider_at,
     update_peaks,
 )
 from springblock.solver.laws import (
@@ -42,31 +40,13 @@ from springblock.solver.laws import (
     strength_of,
     threshold_of,
 )
-from springblock.solver.release import force_in_patch, make_releases, release_theta
-from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, TURNS, U, forces_on_band
-from springblock.solver.stability import leapfrog_force_time
-
-FORCE_EVALUATIONS = 1
-WORK_FIELDS = 0
+from springblock.solver.release import Releases, force_in_patch, make_releases, release_theta
+from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, TURNS, Scratch, U, forces_on_band
 
 #: Relative margin, against rounding, on the estimated number of steps that a row stays at rest.
 _SLACK = 1e-9
 #: Effectively infinite number of steps.
 _FOREVER = 1e15
-
-
-force_time = leapfrog_force_time
-
-
-def at_step(state: Lattice, constants: Constants, steps: int) -> tuple[Array, float]:
-    """Velocity (2, lattice) after `steps` steps, in l per step, and the frictional heat so far.
-
-    Both are means of the values half a step before and after; those after are computed on a copy.
-    """
-    ahead, blocks = state.copy(), state.blocks
-    advance(ahead, constants, steps, 1, 1, Samples.empty(1))
-    velocity = np.stack([blocks.vx + ahead.blocks.vx, blocks.vy + ahead.blocks.vy]) / 2.0
-    return velocity, float(state.ledger[HEAT] + ahead.ledger[HEAT]) / 2.0
 
 
 class Rows(NamedTuple):
@@ -364,43 +344,42 @@ def totals(rows):
     return Totals(x, y, heat, squares)
 
 
-@kernel
-def _time_loop(state, constants, first, steps, every, samples, rows, released):
-    """Compiled loop of `advance`, with work arrays for rows and for the blocks that detach."""
-    blocks, law, s, grid = state.blocks, state.law, state.scratch, constants.grid
-    switches = np.int64(0)
-    for k in range(first, first + steps):
-        slider, count = (constants.slider_x * k, constants.slider_y * k), np.int64(0)
+class Work(NamedTuple):
+    """Work arrays of the leapfrog on one core."""
+
+    rows: Rows
+    scratch: Scratch
+    released: Releases
+
+    @classmethod
+    def of(cls, state: Lattice, constants: Constants) -> "Work":
+        """Return work arrays for the steps of one call."""
+        n_y, n_x = constants.grid.shape
+        rows = make_rows(state.in_contact, constants.grid.periodic is not None)
+        return cls(rows, Scratch.empty(), make_releases(n_y * n_x))
+
+    @staticmethod
+    def take_step(work, state, constants, k):
+        """Take step k, see `integrators`.
+
+        A row at rest among rows at rest is skipped until one of its blocks may detach; the result
+        is the same to the bit.
+        """
+        blocks, law, rows, s = state.blocks, state.law, work.rows, work.scratch
+        grid, springs = constants.grid, constants.springs
+        slider, switches, count = slider_at(constants, k), np.int64(0), np.int64(0)
         if state.peak is None:  # a prelude computes every block in every step
             wake(rows, k, grid.periodic is not None)
         close_rows(blocks.ux, blocks.uy, grid)
         for start in range(U(0), grid.n_y, constants.band_rows):
             band = band_from(start, constants)
-            row, column = forces_on_band(
-                blocks.ux, blocks.uy, band, rows.awake, s, constants.springs, slider
-            )
+            row, column = forces_on_band(blocks.ux, blocks.uy, band, rows.awake, s, springs, slider)
             if column > 0:
-                return k - first, np.int64(row), np.int64(column) - 1
+                return totals(rows), switches, row, column
             more, count = move_band(
-                blocks, law, state.peak, rows, released, count, band, s, constants, k
+                blocks, law, state.peak, rows, work.released, count, band, s, constants, k
             )
             switches += more
         if count > 0:
-            place_releases(blocks, law, rows, released, count, constants, k)
-        switches = tally(state.ledger, samples, constants, totals(rows), switches, k, first, every)
-    return steps, np.int64(-1), np.int64(-1)
-
-
-def advance(
-    state: Lattice, constants: Constants, first: int, steps: int, every: int, samples: Samples
-) -> tuple[int, int, int]:
-    """Advance a state on one core; arguments as of `Advance`.
-
-    A row at rest among rows at rest is skipped until one of its blocks may detach; the result is
-    the same to the bit.
-    """
-    n_y, n_x = constants.grid.shape
-    rows = make_rows(state.in_contact, constants.grid.periodic is not None)
-    return _time_loop(
-        state, constants, first, steps, every, samples, rows, make_releases(n_y * n_x)
-    )
+            place_releases(blocks, law, rows, work.released, count, constants, k)
+        return totals(rows), switches, U(0), U(0)

@@ -12,8 +12,15 @@ from typing import NamedTuple
 import numpy as np
 
 from springblock.solver.compilation import kernel
-from springblock.solver.lattice import Constants, Lattice, Samples, band_from, close_rows, tally
-from springblock.solver.leapfrog import make_rows, move_band, place_releases, totals, wake
+from springblock.solver.lattice import Constants, Lattice, Totals, band_from, close_rows, slider_at
+from springblock.solver.leapfrog import (
+    Rows,
+    make_rows,
+    move_band,
+    place_releases,
+    totals,
+    wake,
+)
 from springblock.solver.release import Releases, make_releases
 from springblock.solver.springs import ONE, Band, Scratch, U, forces_on_band
 
@@ -88,41 +95,45 @@ def _move_part(blocks, law, peak, rows, constants, slider, now, part):
     return switches, count, U(0), U(0)
 
 
-def advance(
-    state: Lattice,
-    constants: Constants,
-    first: int,
-    steps: int,
-    every: int,
-    samples: Samples,
-    cores: int,
-) -> tuple[int, int, int]:
-    """Advance as `leapfrog.advance` does, on this many cores."""
-    (n_y, n_x), periodic = constants.grid.shape, constants.grid.periodic is not None
-    blocks, law, peak = state.blocks, state.law, state.peak
-    rows, switches = make_rows(state.in_contact, periodic), 0
-    released, parts = make_releases(n_y * n_x), parts_of(constants, cores)
-    with ThreadPoolExecutor(len(parts)) as executor:
-        for k in range(first, first + steps):
-            slider, count = (constants.slider_x * k, constants.slider_y * k), 0
-            if peak is None:
-                wake(rows, k, periodic)
-            close_rows(blocks.ux, blocks.uy, constants.grid)
-            ends = partial(_forces_at_ends, blocks, rows, constants, slider)
-            for row, column in list(executor.map(ends, parts)):
-                if column > 0:
-                    return k - first, row, column - 1
-            move = partial(_move_part, blocks, law, peak, rows, constants, slider, k)
-            moved = list(executor.map(move, parts))
-            for part, (more, detached, row, column) in zip(parts, moved, strict=True):
-                if column > 0:
-                    return k - first, row, column - 1
-                for merged, own in zip(released[:5], part.released[:5], strict=True):
-                    merged[count : count + detached] = own[:detached]
-                switches, count = switches + more, count + detached
-            if count > 0:
-                place_releases(blocks, law, rows, released, count, constants, k)
-            switches = tally(
-                state.ledger, samples, constants, totals(rows), switches, k, first, every
-            )
-    return steps, -1, -1
+class Work(NamedTuple):
+    """Work arrays of the leapfrog on several cores, and the threads that use them."""
+
+    rows: Rows
+    released: Releases  #: those of all parts
+    parts: list[Part]
+    executor: ThreadPoolExecutor
+
+    @classmethod
+    def of(
+        cls, state: Lattice, constants: Constants, cores: int, executor: ThreadPoolExecutor
+    ) -> "Work":
+        """Return work arrays for the steps of one call."""
+        n_y, n_x = constants.grid.shape
+        rows = make_rows(state.in_contact, constants.grid.periodic is not None)
+        return cls(rows, make_releases(n_y * n_x), parts_of(constants, cores), executor)
+
+    @staticmethod
+    def take_step(
+        work: "Work", state: Lattice, constants: Constants, k: int
+    ) -> tuple[Totals, int, int, int]:
+        """Take step k as the leapfrog does, see `integrators`."""
+        rows, blocks, law, slider = work.rows, state.blocks, state.law, slider_at(constants, k)
+        if state.peak is None:
+            wake(rows, k, constants.grid.periodic is not None)
+        close_rows(blocks.ux, blocks.uy, constants.grid)
+        ends = partial(_forces_at_ends, blocks, rows, constants, slider)
+        for row, column in list(work.executor.map(ends, work.parts)):
+            if column > 0:
+                return totals(rows), 0, row, column
+        move = partial(_move_part, blocks, law, state.peak, rows, constants, slider, k)
+        switches, count = 0, 0
+        moved = list(work.executor.map(move, work.parts))
+        for part, (more, detached, row, column) in zip(work.parts, moved, strict=True):
+            if column > 0:
+                return totals(rows), 0, row, column
+            for merged, own in zip(work.released[:5], part.released[:5], strict=True):
+                merged[count : count + detached] = own[:detached]
+            switches, count = switches + more, count + detached
+        if count > 0:
+            place_releases(blocks, law, rows, work.released, count, constants, k)
+        return totals(rows), switches, 0, 0

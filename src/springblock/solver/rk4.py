@@ -15,25 +15,24 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from springblock.model.numbers import Array
 from springblock.solver.compilation import add, kernel
 from springblock.solver.lattice import (
-    HEAT,
     Constants,
     Lattice,
-    Samples,
     Totals,
     band_from,
     close_edge,
     close_rows,
     index_of,
-    tally,
+    slider_at,
     update_peaks,
 )
 from springblock.solver.laws import resistance, row_at_release, store_stage, store_state
-from springblock.solver.release import make_releases, release_theta
-from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
+from springblock.solver.release import Releases, make_releases, release_theta
+from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, Scratch, U, aligned, forces_on_band
 
 
 class Stage(NamedTuple):
@@ -51,9 +50,6 @@ class Stage(NamedTuple):
     ey: Array
 
 
-FORCE_EVALUATIONS = 4
-WORK_FIELDS = len(Stage._fields)
-
 #: Weight and node of each stage, and the node of the next one.
 STAGES = (
     (1.0 / 6.0, 0.0, 0.5),
@@ -61,16 +57,6 @@ STAGES = (
     (1.0 / 3.0, 0.5, 1.0),
     (1.0 / 6.0, 1.0, 0.0),
 )
-
-
-def force_time(step: float, gamma: float) -> float:
-    """Time for which a force acts in one step, s: the whole step, as damping is a force here."""
-    return step
-
-
-def at_step(state: Lattice, constants: Constants, steps: int) -> tuple[Array, float]:
-    """Velocity (2, lattice) after `steps` steps, in l per step, and the frictional heat so far."""
-    return np.stack([state.blocks.vx, state.blocks.vy]), float(state.ledger[HEAT])
 
 
 @njit(inline="always")
@@ -282,43 +268,47 @@ def _finish_step(blocks, law, stage, grid, heat, squares):
     return Totals(total_x, total_y, heat, squares)
 
 
-@kernel
-def _time_loop(state, stage, constants, first, steps, every, samples, every_row, released):
-    """Compiled loop of `advance`, with work arrays for stages and for the blocks that detach."""
-    blocks, law, s, grid = state.blocks, state.law, state.scratch, constants.grid
-    damping, switches = constants.damping, np.int64(0)
-    for k in range(first, first + steps):
-        heat, squares, count = 0.0, 0.0, np.int64(0)
+class Work(NamedTuple):
+    """Work arrays of the Runge-Kutta method."""
+
+    stage: Stage
+    every_row: NDArray[np.bool_]  #: (N_y + 1,) all true
+    scratch: Scratch
+    released: Releases
+
+    @classmethod
+    def of(cls, state: Lattice, constants: Constants) -> "Work":
+        """Return work arrays for the steps of one call."""
+        (n_y, n_x), size = constants.grid.shape, len(state.blocks.ux)
+        stage = Stage(*(aligned(size, 9 * k) for k in range(len(Stage._fields))))
+        for field, values in zip(stage[:4], state.blocks[:4], strict=True):
+            field[:] = values
+        stage.ex[:] = 1.0  # without friction e has no effect
+        return cls(stage, np.ones(n_y + 1, np.bool_), Scratch.empty(), make_releases(n_y * n_x))
+
+    @staticmethod
+    def take_step(work, state, constants, k):
+        """Take step k, see `integrators`."""
+        blocks, law, grid, damping = state.blocks, state.law, constants.grid, constants.damping
+        stage, s, heat, squares, count = work.stage, work.scratch, 0.0, 0.0, np.int64(0)
         for weight, node, reach in STAGES:
-            slider = constants.slider_x * (k + node), constants.slider_y * (k + node)
+            slider = slider_at(constants, k + node)
             close_rows(stage.ux, stage.uy, grid)
             for start in range(U(0), grid.n_y, constants.band_rows):
                 band = band_from(start, constants)
                 row, column = forces_on_band(
-                    stage.ux, stage.uy, band, every_row, s, constants.springs, slider
+                    stage.ux, stage.uy, band, work.every_row, s, constants.springs, slider
                 )
                 if column > 0:
-                    return k - first, np.int64(row), np.int64(column) - 1
+                    return Totals(0.0, 0.0, heat, squares), count, row, column
                 if node == 0.0:
                     update_peaks(state.peak, band, s)
-                    count = _begin_step(blocks, law, stage, released, count, band, s, damping, k)
+                    count = _begin_step(
+                        blocks, law, stage, work.released, count, band, s, damping, k
+                    )
                 more, speeds = _advance_stage(blocks, law, stage, weight, reach, band, s, damping)
                 heat, squares = heat + more, squares + speeds
         if count > 0:
-            early = _place_releases(blocks, law, stage, released, count, constants, k)
+            early = _place_releases(blocks, law, stage, work.released, count, constants, k)
             heat += 0.0 if law is None else early
-        totals, switches = _finish_step(blocks, law, stage, grid, heat, squares), switches + count
-        switches = tally(state.ledger, samples, constants, totals, switches, k, first, every)
-    return steps, np.int64(-1), np.int64(-1)
-
-
-def advance(
-    state: Lattice, constants: Constants, first: int, steps: int, every: int, samples: Samples
-) -> tuple[int, int, int]:
-    """Advance a state on one core; arguments as of `Advance`."""
-    (n_y, n_x), stage = constants.grid.shape, Stage(*state.work)
-    every_row, released = np.ones(n_y + 1, np.bool_), make_releases(n_y * n_x)
-    for field, values in zip(stage[:4], state.blocks[:4], strict=True):
-        field[:] = values
-    stage.ex[:], stage.ey[:] = 1.0, 0.0  # without friction e has no effect
-    return _time_loop(state, stage, constants, first, steps, every, samples, every_row, released)
+        return _finish_step(blocks, law, stage, grid, heat, squares), count, U(0), U(0)

@@ -5,9 +5,8 @@ from collections.abc import Sequence
 
 from springblock.model.scene import Scene
 from springblock.simulation.setup import Setup
+from springblock.solver.integrators import INTEGRATORS
 
-#: CPU seconds per block and step with all blocks moving, measured by `make bench`.
-_RATE = {"leapfrog": 4.5e-9, "rk4": 33e-9}
 #: CPU seconds of jobs of config/full.yaml: until a simulation begins, its work as a share of
 #: `cpu_seconds`, and those of other jobs by their rule.
 _BEGIN, _SHARE, _OTHER = 1.5, 0.42, 3.0
@@ -28,7 +27,8 @@ def cpu_seconds(scene: Scene, setup: Setup, duration: float | None) -> float:
     time of a block with the mean threshold, t = mu_s F_n/(K_s v).
     """
     duration = duration or setup.loading_time(scene.contact, setup.material.mu_static)
-    return duration / setup.step * math.prod(scene.shape) * _RATE[setup.integrator]
+    rate = INTEGRATORS[setup.integrator].rate
+    return duration / setup.step * math.prod(scene.shape) * rate
 
 
 def expected(scene: Scene, setup: Setup, duration: float | None, realisations: int = 1) -> float:

@@ -12,7 +12,7 @@ from springblock.simulation.motion import SimulationError
 from springblock.simulation.run import Realisation
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
-from springblock.solver.stability import limit
+from springblock.solver.integrators import limit
 
 PAPER, UNDAMPED = Material(), Material(gamma=0.0)
 

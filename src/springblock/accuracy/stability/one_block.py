@@ -17,7 +17,7 @@ from springblock.accuracy.stability.surfaces import beyond_the_limit
 from springblock.model.material import LAWS, Material
 from springblock.model.numbers import Array
 from springblock.model.surface import Surface
-from springblock.solver.stability import limit
+from springblock.solver.integrators import limit
 
 SPEED = 0.01
 ROUGH = 1.0, 0.6  #: mu_static and mu_dynamic
