@@ -21,7 +21,7 @@ from springblock.model.surface import Surface
 from springblock.simulation.run import friction
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
-from springblock.solver.stability import limit
+from springblock.solver.integrators import limit
 
 #: Strongly damped, without disorder and healing; sizes are those of the theory.
 PLAIN = Material(
