@@ -43,9 +43,6 @@ Q_MIN, Q_MAX = -0.75, 3.0
 #: Rows are computed in bands of about this many blocks.
 _BAND_BLOCKS = 2048
 
-#: Columns of a band are computed in tiles of this many, whose spring forces fit into the L1 cache.
-_TILE = np.uint64(256)
-
 #: Rows are filled up with phantoms to a multiple of this many blocks, the longest vector.
 LANES = 8
 
@@ -95,14 +92,6 @@ class Band(NamedTuple):
     start: np.uint64
     stop: np.uint64
     grid: Grid
-
-
-class Columns(NamedTuple):
-    """Columns [start, stop) of a band, from 1, computed together."""
-
-    springs: np.uint64  #: first column whose springs are computed: `start` needs those on its west
-    start: np.uint64
-    stop: np.uint64
 
 
 class Scratch(NamedTuple):
@@ -194,13 +183,13 @@ def _stretch(relative):
 
 
 @njit(inline="always")
-def _store_pulls(s, x, relative, east, north, ne, nw):
+def _store_pulls(pulls, x, relative, east, north, ne, nw):
     """Store the forces F = pull (e + d) of the four springs."""
     (ex, ey), (nx, ny), (nex, ney), (nwx, nwy) = relative
-    s.row[EAST_X + x], s.row[EAST_Y + x] = east + east * ex, east * ey
-    s.row[NORTH_X + x], s.row[NORTH_Y + x] = north * nx, north + north * ny
-    s.row[NE_X + x], s.row[NE_Y + x] = ne + ne * nex, ne + ne * ney
-    s.row[NW_X + x], s.row[NW_Y + x] = nw * nwx - nw, nw + nw * nwy
+    pulls[EAST_X + x], pulls[EAST_Y + x] = east + east * ex, east * ey
+    pulls[NORTH_X + x], pulls[NORTH_Y + x] = north * nx, north + north * ny
+    pulls[NE_X + x], pulls[NE_Y + x] = ne + ne * nex, ne + ne * ney
+    pulls[NW_X + x], pulls[NW_Y + x] = nw * nwx - nw, nw + nw * nwy
 
 
 @njit(inline="always")
@@ -230,20 +219,20 @@ def _is_small(q):
 
 
 @njit(inline="always")
-def _pulls_by_series(ux, uy, row, band, columns, s, c):
+def _pulls_by_series(ux, uy, row, band, s, c):
     """Store the spring forces kappa q g(q) (e + d) of a row; return whether all q are in range.
 
     Forces of diagonal springs have the stiffness of axial ones; `_sum_forces` halves them.
     """
     i, j = _row_offsets(row, band.grid)
     edge, within = _end_of_diagonals(row, band.grid), True
-    for x in range(columns.springs, columns.stop):
+    for x in range(ONE, band.grid.width + ONE):
         relative = _relative_displacements(ux, uy, i, j, x)
         q = _stretch(relative)
         p = _series(q, c)
         within = within & _is_small(q[0]) & _is_small(q[1]) & _is_small(q[2]) & _is_small(q[3])
         ne, nw = (q[2] * p[2], q[3] * p[3]) if x < edge else (0.0, 0.0)
-        _store_pulls(s, x, relative, q[0] * p[0], q[1] * p[1], ne, nw)
+        _store_pulls(s.row, x, relative, q[0] * p[0], q[1] * p[1], ne, nw)
     return within
 
 
@@ -253,18 +242,18 @@ def _is_intact(q):
 
 
 @kernel
-def _pulls_by_closed_form(ux, uy, row, band, columns, s, kappa):
+def _pulls_by_closed_form(ux, uy, row, band, s, kappa):
     """Store the spring forces of a row at any strain; return the x of a broken spring, or 0."""
     n = band.grid.n_x
     i, j = _row_offsets(row, band.grid)
     edge, broken = _end_of_diagonals(row, band.grid), np.int64(n + ONE)
-    for x in range(columns.springs, columns.stop):
+    for x in range(ONE, band.grid.width + ONE):
         relative = _relative_displacements(ux, uy, i, j, x)
         q = _stretch(relative)
         inside = x < edge
         east, north = kappa * q[0] * g(q[0]), kappa * q[1] * g(q[1])
         ne, nw = (kappa * q[2] * g(q[2]), kappa * q[3] * g(q[3])) if inside else (0.0, 0.0)
-        _store_pulls(s, x, relative, east, north, ne, nw)
+        _store_pulls(s.row, x, relative, east, north, ne, nw)
         diagonals = _is_intact(q[2]) & _is_intact(q[3])
         whole = _is_intact(q[0]) & _is_intact(q[1]) & (diagonals | (not inside))
         broken = min(broken, np.int64(n + ONE) if whole else np.int64(x))
@@ -272,84 +261,57 @@ def _pulls_by_closed_form(ux, uy, row, band, columns, s, kappa):
 
 
 @njit(inline="always")
-def _close_springs(s, grid):
+def _close_springs(pulls, grid):
     """Connect the springs of the last block of a row to the first one, on a periodic surface.
 
     With free edges these entries stay zero.
     """
     if grid.periodic is not None:
-        n = grid.n_x
-        s.row[EAST_X], s.row[EAST_Y] = s.row[EAST_X + n], s.row[EAST_Y + n]
-        s.row[NE_X], s.row[NE_Y], s.row[NW_X], s.row[NW_Y] = (
-            s.row[NE_X + n],
-            s.row[NE_Y + n],
-            s.row[NW_X + n],
-            s.row[NW_Y + n],
-        )
+        for field in (EAST_X, EAST_Y, NE_X, NE_Y, NW_X, NW_Y):
+            pulls[field] = pulls[field + grid.n_x]
 
 
 @njit(inline="always")
-def _sum_forces(ux, uy, row, band, columns, s, k_s, slider):
+def _sum_forces(ux, uy, row, band, s, k_s, slider):
     """Store F_mot of the blocks of a row, summed over its springs and those from the row below.
 
     The forces of its springs on the next row are kept in BELOW. The order of summation is invariant
     under reflections in x and in y, so that a mirrored scene moves as the mirror image to the last
     bit.
     """
-    pitch, (sx, sy) = band.grid.pitch, slider
-    i, own, w = row * pitch, (row - band.start) * pitch, columns.start - ONE
-    e_x, e_y = s.row[EAST_X + w], s.row[EAST_Y + w]
-    ne_x, ne_y, nw_x, nw_y = s.row[NE_X + w], s.row[NE_Y + w], s.row[NW_X + w], s.row[NW_Y + w]
-    for x in range(columns.start, columns.stop):
+    (sx, sy), force, pulls = slider, s.force, s.row
+    i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
+    e_x, e_y, ne_x, ne_y = pulls[EAST_X], pulls[EAST_Y], pulls[NE_X], pulls[NE_Y]
+    nw_x, nw_y = pulls[NW_X], pulls[NW_Y]
+    for x in range(ONE, band.grid.width + ONE):
         # Springs from the column to the west: east, north-east, and north-west from this block.
         w_x, w_y, wne_x, wne_y, wnw_x, wnw_y = e_x, e_y, ne_x, ne_y, nw_x, nw_y
-        e_x, e_y, n_x, n_y = (
-            s.row[EAST_X + x],
-            s.row[EAST_Y + x],
-            s.row[NORTH_X + x],
-            s.row[NORTH_Y + x],
-        )
-        ne_x, ne_y, nw_x, nw_y = s.row[NE_X + x], s.row[NE_Y + x], s.row[NW_X + x], s.row[NW_Y + x]
+        e_x, e_y = pulls[EAST_X + x], pulls[EAST_Y + x]
+        n_x, n_y = pulls[NORTH_X + x], pulls[NORTH_Y + x]
+        ne_x, ne_y, nw_x, nw_y = pulls[NE_X + x], pulls[NE_Y + x], pulls[NW_X + x], pulls[NW_Y + x]
         north_x, north_y = n_x + 0.5 * (ne_x + wnw_x), n_y + 0.5 * (ne_y + wnw_y)
-        fx = (e_x - w_x) + (north_x - s.row[BELOW_X + x])
-        fy = (e_y - w_y) + (north_y - s.row[BELOW_Y + x])
-        s.force[FORCE_X + own + x] = fx + k_s * (sx - ux[i + x])
-        s.force[FORCE_Y + own + x] = fy + k_s * (sy - uy[i + x])
-        s.row[BELOW_X + x], s.row[BELOW_Y + x] = (
-            n_x + 0.5 * (nw_x + wne_x),
-            n_y + 0.5 * (nw_y + wne_y),
-        )
+        fx = (e_x - w_x) + (north_x - pulls[BELOW_X + x])
+        fy = (e_y - w_y) + (north_y - pulls[BELOW_Y + x])
+        force[FORCE_X + own + x] = fx + k_s * (sx - ux[i + x])
+        force[FORCE_Y + own + x] = fy + k_s * (sy - uy[i + x])
+        pulls[BELOW_X + x] = n_x + 0.5 * (nw_x + wne_x)
+        pulls[BELOW_Y + x] = n_y + 0.5 * (nw_y + wne_y)
 
 
 @kernel
-def _forces_on_columns(ux, uy, band, columns, needed, s, springs, slider):
-    """Store F_mot of columns of a band; return row and column of a broken spring, or column 0.
+def _forces_on_rows(ux, uy, band, needed, s, springs, slider):
+    """Store F_mot of a band, given the forces on its first row from the row below.
 
     A row is skipped if neither it nor the next one is `needed`.
     """
     for row in range(band.start, band.stop):
         if needed[row] or needed[row + ONE]:
-            if not _pulls_by_series(ux, uy, row, band, columns, s, springs.series):
-                broken = _pulls_by_closed_form(ux, uy, row, band, columns, s, springs.kappa)
+            if not _pulls_by_series(ux, uy, row, band, s, springs.series):
+                broken = _pulls_by_closed_form(ux, uy, row, band, s, springs.kappa)
                 if broken > 0:
                     return row, broken
-            _close_springs(s, band.grid)
-            _sum_forces(ux, uy, row, band, columns, s, springs.k_s, slider)
-    return band.stop, U(0)
-
-
-@kernel
-def _forces_on_rows(ux, uy, band, needed, s, springs, slider):
-    """Store F_mot of a band, given the forces on its first row from the row below."""
-    end = band.grid.width + ONE
-    # A periodic row is one tile, as its first block needs the springs of the last one.
-    tile = band.grid.width if band.grid.periodic is not None else _TILE
-    for first in range(ONE, end, tile):
-        start = U(first)
-        columns = Columns(start - U(LANES) if start > 1 else start, start, min(start + tile, end))
-        row, broken = _forces_on_columns(ux, uy, band, columns, needed, s, springs, slider)
-        if broken > 0:
-            return row, broken
+            _close_springs(s.row, band.grid)
+            _sum_forces(ux, uy, row, band, s, springs.k_s, slider)
     return band.stop, U(0)
 
 
