@@ -19,7 +19,7 @@ from springblock.study import cost, events, record
 from springblock.study.written import LOADER, check_file
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
-    SCHEMA = yaml.load(file, LOADER)
+    SCHEMA = study.with_constants(yaml.load(file, LOADER))
 
 # Snakemake has not loaded the defaults for a module with `config`, or in another folder.
 if workflow.modifier.skip_configfile or not Path(DEFAULTS).exists():

@@ -1,6 +1,10 @@
 """Columns of the tables, with their units and meanings."""
 
+from dataclasses import fields
+
 import pyarrow as pa
+
+from springblock.model.material import Material
 
 
 def column(name: str, kind: pa.DataType, unit: str, meaning: str) -> pa.Field:
@@ -67,28 +71,15 @@ SCENE = pa.schema(
 #: Constants of a realisation, see `Setup.constants`.
 SETUP = pa.schema(
     [
-        column("youngs_modulus", pa.float64(), "Pa", "Young's modulus E"),
-        column("density", pa.float64(), "kg/m³", "density ρ"),
-        column("pressure", pa.float64(), "Pa", "pressure P over the whole nominal area"),
-        column("slider_velocity", pa.float64(), "m/s", "velocity v of the slider"),
-        column("spacing", pa.float64(), "m", "lattice spacing l"),
-        column("thickness", pa.float64(), "m", "thickness l_z of the layer"),
-        column("gamma", pa.float64(), "1/s", "damping frequency γ"),
-        column("mu_static", pa.float64(), "1", "mean of static coefficients"),
-        column("mu_static_std", pa.float64(), "1", "standard deviation of static coefficients"),
-        column("mu_dynamic", pa.float64(), "1", "mean of dynamic coefficients"),
-        column("mu_dynamic_std", pa.float64(), "1", "standard deviation of dynamic coefficients"),
-        column("distribution", pa.string(), "1", "distribution of the coefficients"),
-        *numbers("m", correlation_length="ℓ in the normal variates' autocorrelation exp(-r²/ℓ²)"),
-        column(
-            "law",
-            pa.string(),
-            "1",
-            "law of friction; for a file its name, digest, and constants with units as JSON",
+        *(
+            column(
+                each.name,
+                pa.string() if "choices" in each.metadata else pa.float64(),
+                each.metadata["unit"],
+                each.metadata["meaning"],
+            )
+            for each in fields(Material)
         ),
-        column("slip_distance", pa.float64(), "m", "d_c of slip weakening; 0 for other laws"),
-        column("speed_scale", pa.float64(), "m/s", "v_c of velocity weakening; 0 for other laws"),
-        *texts(healing="instant or none: whether a block that stops regains its strength"),
         column("integrator", pa.string(), "1", "leapfrog or rk4"),
         column("step", pa.float64(), "s", "integration step h"),
         column("sample_interval", pa.float64(), "s", "time between samples of the force"),

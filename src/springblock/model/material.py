@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +15,17 @@ DISTRIBUTIONS = ("normal", "lognormal", "weibull", "uniform")
 LAWS = {"coulomb": "", "slip_weakening": "slip_distance", "velocity_weakening": "speed_scale"}
 #: Whether a block that stops regains its strength; without healing, slip weakening is for good.
 HEALING = ("instant", "none")
-#: Fields that may be zero; all other numbers must be positive.
-_MAY_VANISH = {"gamma", "mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std"}
-_MAY_VANISH |= {"correlation_length", "slip_distance", "speed_scale"}
+
+
+def _number(default: float, unit: str, meaning: str, may_vanish: bool = False) -> Any:
+    """Declare a constant that is a positive number, or that may also be zero."""
+    said = {"unit": unit, "meaning": meaning, "may_vanish": may_vanish}
+    return field(default=default, metadata=said)
+
+
+def _word(default: str, meaning: str, choices: tuple[str, ...] = ()) -> Any:
+    """Declare a constant that is one of these words; `as_law` reads that without choices."""
+    return field(default=default, metadata={"unit": "1", "meaning": meaning, "choices": choices})
 
 
 def as_law(given: Any) -> str | LawFile:
@@ -63,36 +71,49 @@ class Material:
         constant or has that of another.
     """
 
-    youngs_modulus: float = 1e7  #: E, Pa
-    density: float = 1200.0  #: rho, kg/m³
-    pressure: float = 5e4  #: P, Pa, over the whole nominal area
-    slider_velocity: float = 5e-4  #: v, m/s
-    spacing: float = 1e-5  #: l, m, distance between blocks
-    thickness: float = 1e-5  #: l_z, m, of the layer
-    gamma: float = 5e3  #: damping frequency, 1/s (the paper's 5 ms⁻¹)
-    mu_static: float = 1.0  #: mean of the microscopic static coefficient
-    mu_static_std: float = 0.1  #: its standard deviation
-    mu_dynamic: float = 0.6  #: mean of the microscopic dynamic coefficient
-    mu_dynamic_std: float = 0.05  #: its standard deviation
-    distribution: str = "normal"  #: of both coefficients, one of `DISTRIBUTIONS`
-    correlation_length: float = 0.0  #: ℓ, m, of both coefficients; 0 if they are independent
-    law: str | LawFile = "coulomb"  #: law of friction, one of `LAWS` or from a file
-    slip_distance: float = 0.0  #: d_c, m, of slip weakening; 0 with any other law
-    speed_scale: float = 0.0  #: v_c, m/s, of velocity weakening; 0 with any other law
-    healing: str = "instant"  #: of a block that stops, one of `HEALING`; "instant" with other laws
+    # Columns of tables and the schema of configurations follow from these declarations.
+    youngs_modulus: float = _number(1e7, "Pa", "Young's modulus E")
+    density: float = _number(1200.0, "kg/m³", "density ρ")
+    pressure: float = _number(5e4, "Pa", "pressure P over the whole nominal area")
+    slider_velocity: float = _number(5e-4, "m/s", "velocity v of the slider")
+    spacing: float = _number(1e-5, "m", "lattice spacing l")
+    thickness: float = _number(1e-5, "m", "thickness l_z of the layer")
+    gamma: float = _number(5e3, "1/s", "damping frequency γ", may_vanish=True)  # 5 ms⁻¹
+    mu_static: float = _number(1.0, "1", "mean of static coefficients", may_vanish=True)
+    mu_static_std: float = _number(
+        0.1, "1", "standard deviation of static coefficients", may_vanish=True
+    )
+    mu_dynamic: float = _number(0.6, "1", "mean of dynamic coefficients", may_vanish=True)
+    mu_dynamic_std: float = _number(
+        0.05, "1", "standard deviation of dynamic coefficients", may_vanish=True
+    )
+    distribution: str = _word("normal", "distribution of the coefficients", DISTRIBUTIONS)
+    correlation_length: float = _number(
+        0.0, "m", "ℓ in the normal variates' autocorrelation exp(-r²/ℓ²)", may_vanish=True
+    )
+    law: str | LawFile = _word(  # noqa: RUF009 - a field
+        "coulomb", "law of friction; for a file its name, digest, and constants with units as JSON"
+    )
+    slip_distance: float = _number(
+        0.0, "m", "d_c of slip weakening; 0 for other laws", may_vanish=True
+    )
+    speed_scale: float = _number(
+        0.0, "m/s", "v_c of velocity weakening; 0 for other laws", may_vanish=True
+    )
+    healing: str = _word(
+        "instant", "instant or none: whether a block that stops regains its strength", HEALING
+    )
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "law", as_law(self.law))
-        for name, known in {"distribution": DISTRIBUTIONS, "healing": HEALING}.items():
-            if (value := getattr(self, name)) not in known:
-                raise ValueError(
-                    f"Material.{name} must be one of {', '.join(known)}, not {value!r}"
-                )
-        for name, value in self.items():
-            if name in ("distribution", "law", "healing"):
-                continue
-            number = check_real(f"Material.{name}", value, may_vanish=name in _MAY_VANISH)
-            object.__setattr__(self, name, number)
+        for each in fields(self):
+            name, said, value = each.name, each.metadata, getattr(self, each.name)
+            if "may_vanish" in said:
+                number = check_real(f"Material.{name}", value, may_vanish=said["may_vanish"])
+                object.__setattr__(self, name, number)
+            elif said["choices"] and value not in said["choices"]:
+                known = ", ".join(said["choices"])
+                raise ValueError(f"Material.{name} must be one of {known}, not {value!r}")
         self._check_derived()
         self._check_law()
 
@@ -119,7 +140,7 @@ class Material:
                 f"Material.healing must be instant with {self.law}, not {self.healing!r}"
             )
         if isinstance(self.law, LawFile):
-            twice = self.law.constants.keys() & {field.name for field in fields(self)}
+            twice = self.law.constants.keys() & {each.name for each in fields(self)}
             if twice:
                 raise ValueError(
                     f"{self.law.file}: {min(twice)!r} is a constant of the material; rename it"
@@ -130,13 +151,13 @@ class Material:
 
         A law from a file is described by a text that includes its constants.
         """
-        for field in fields(self):
-            value = getattr(self, field.name)
-            yield field.name, value.described if isinstance(value, LawFile) else value
+        for each in fields(self):
+            value = getattr(self, each.name)
+            yield each.name, value.described if isinstance(value, LawFile) else value
 
     def vary(self, constants: Mapping[str, Any]) -> "Material":
         """Return a material with other constants, including those of its law."""
-        known = [field.name for field in fields(self)]
+        known = [each.name for each in fields(self)]
         own = {name: value for name, value in constants.items() if name in known}
         of_law = {name: value for name, value in constants.items() if name not in known}
         material = replace(self, **own)

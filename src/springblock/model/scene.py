@@ -1,7 +1,7 @@
 """Scenes: surface, sliding direction and constants that a study varies besides the seed."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from shlex import quote
 from typing import Any
@@ -25,7 +25,8 @@ COLUMNS = (*_PATTERN, "n_rows", "edges", *MAPS)
 EDGES = ("free", "periodic")
 #: Constants that a scene may vary.
 CONSTANTS = (*dict(Material().items()), "integrator", "step")
-TEXTS = ("integrator", "distribution", "law", "healing")  #: constants that are not numbers
+#: Constants that are not numbers.
+TEXTS = ("integrator", *(each.name for each in fields(Material) if "choices" in each.metadata))
 _SIDE = 6  #: least number of blocks of a side along which a correlation is measured
 
 Varied = tuple[tuple[str, Any], ...]  #: names and values of constants, in the order of `CONSTANTS`

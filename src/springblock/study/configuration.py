@@ -3,7 +3,8 @@
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from copy import deepcopy
+from dataclasses import dataclass, fields, replace
 from itertools import chain, product
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from springblock.model.material import Material, as_law
 from springblock.model.scene import LENGTHS, TEXTS, Scene, Varied
 from springblock.model.surface import Surface
 from springblock.simulation.setup import Setup
+from springblock.solver.integrators import INTEGRATORS
 from springblock.study.texts import check_texts
 from springblock.study.written import NUMBER
 
@@ -99,6 +101,31 @@ def _continued(node: Any, more: Any) -> Any:
         inner = {key: _continued(node.get(key), value) for key, value in more.items()}
         return {**node, **inner}
     return [*node, *more] if isinstance(node, list) and isinstance(more, list) else more
+
+
+def with_constants(schema: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the schema with what `Material` and `INTEGRATORS` declare, as values and as lists."""
+    one: dict[str, Any] = {}
+    for each in fields(Material):
+        said = each.metadata
+        if "may_vanish" in said:
+            bound = "minimum" if said["may_vanish"] else "exclusiveMinimum"
+            one[each.name] = {"type": "number", bound: 0}
+        else:
+            one[each.name] = {"enum": [*said["choices"]]} if said["choices"] else {"type": "string"}
+        one[each.name]["description"] = f"{said['meaning']}; {said['unit']}"
+    one["integrator"] = {"enum": [*INTEGRATORS], "description": "integrator"}
+    many: dict[str, Any] = {
+        name: {"type": "array", "minItems": 1, "uniqueItems": True, "items": value}
+        | {"description": f"list of values: {value['description']}"}
+        for name, value in one.items()
+    }
+    whole = deepcopy(dict(schema))
+    whole["properties"]["integrator"] = one.pop("integrator")
+    whole["$defs"]["grid"]["properties"]["integrator"] = many.pop("integrator")
+    whole["properties"]["material"]["properties"] = one
+    whole["$defs"]["axes"]["properties"] = many
+    return whole
 
 
 def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
