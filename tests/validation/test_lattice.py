@@ -4,12 +4,15 @@ Plane waves are exact in the bulk and on a periodic lattice, not along a free ed
 of its diagonals. Amplitudes of TINY spacings leave the springs linear.
 """
 
+from math import factorial
+
 import numpy as np
 import pytest
 
 from benchmarks.swing import UNDAMPED, swing
 from springblock import Material
 from springblock.simulation.simulate import SimulationError
+from springblock.solver.integrators import INTEGRATORS
 from springs import spring_forces
 
 PAPER = Material()
@@ -33,13 +36,14 @@ def swing_factor(integrator, phase, taken):
     """A mode's amplitude after so many steps of phase omega h, from 1 at rest.
 
     Leapfrog is at rest half a step before: cos((k + 1/2) theta)/cos(theta/2), where
-    sin(theta/2) = omega h/2. Runge-Kutta multiplies by the Taylor polynomial of exp(i omega h).
+    sin(theta/2) = omega h/2. Runge-Kutta multiplies by the Taylor polynomial of exp(i omega h), of
+    its order.
     """
     if integrator == "leapfrog":
         half = np.arcsin(phase / 2.0)
         return np.cos((2 * taken + 1) * half) / np.cos(half)
-    z = 1j * phase
-    return ((1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)))) ** taken).real
+    factor = sum((1j * phase) ** n / factorial(n) for n in range(INTEGRATORS[integrator].order + 1))
+    return (factor**taken).real
 
 
 @pytest.mark.parametrize("mode", [(1, 0), (0, 1), (2, 1), (3, 2)])
