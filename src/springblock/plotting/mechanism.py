@@ -76,6 +76,7 @@ def mechanism_sensitivities(table: pd.DataFrame) -> Figure:
     names = [f"{_SYMBOLS.get(varied, varied)} {value}" for varied, value in rows]
     panels[0].set_yticks(list(places.values()), names)
     name_places(panels[0], table.loc[table["quantity"] == "size", "mean"])
+    panels[0].set_ylabel("setting")
     panels[0].margins(y=0.03)
     panels[0].invert_yaxis()
     return picture
