@@ -168,7 +168,7 @@ def test_without_memory_the_same_results_are_kept_and_those_of_other_code_refuse
     assert study.planned() == {}
     study.edit("solver/friction.py", "0.0", "0.5")
     said = study.run("--dry-run", refused=True)
-    assert "another code (compile, simulate, accuracy, mechanism)" in said
+    assert "another code (compile, simulate, accuracy, mechanism, continuum)" in said
     assert "Traceback" not in said
 
 
