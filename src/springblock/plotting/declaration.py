@@ -42,6 +42,7 @@ class Declaration:
     - correlations: of the scene that has the configuration's lengths, and l_c for each n_p.
     """
 
+    name: str  #: of its file and of its command
     title: str
     module: str  #: of `plotting`, whose function of the figure's name draws it
     caption: str  #: what is plotted, for which surfaces; lines may break anywhere
