@@ -16,27 +16,6 @@ from springblock.io.schemas import (
     said,
 )
 
-_PAGE = """# The tables
-
-Every table but `means.csv` is a Parquet file, read by
-
-    import pandas as pd
-
-    pd.read_parquet("results/tables/realisations.parquet")
-    pd.read_parquet("results/realisations")  # all batches at once, with curves and maps
-
-This page lists the columns of the Parquet tables. Units are SI, blocks, %, or 1 for pure numbers.
-`springblock info FILE` prints the columns and the origin of a file; `springblock dictionary` writes
-this page.
-
-## Scene and setup
-
-Most tables begin with the columns of the scene and its constants:
-
-{common}
-
-{sections}
-"""
 #: Columns that identify a scene and its constants.
 _COMMON = pa.schema([*SCENE, *SETUP])
 _BATCHES = "realisations/SCENE/batch-NUMBER"  #: file of the batches
@@ -69,21 +48,16 @@ def kinds() -> dict[str, tuple[str, pa.Schema]]:
 
 def dictionary_page() -> str:
     """Write the dictionary of all tables, in Markdown."""
-    sections = []
+    from springblock.pages import rendered  # needs Jinja2, which reading tables does not
+
+    tables = []
     for name, (row, schema) in kinds().items():
+        own = [field for field in schema if field.name not in _COMMON.names]
+        after = len(own) + len(_COMMON) == len(schema)  # after columns of scene and setup
         file = _BATCHES if name == "batches" else f"tables/{name}"
-        sections.append(_section(name, file, row, schema))
-    return _PAGE.format(common=_table(_COMMON), sections="\n\n".join(sections))
-
-
-def _section(name: str, file: str, row: str, schema: pa.Schema) -> str:
-    """Describe a kind of table: where a study keeps it, what one row is, and its columns."""
-    head = f"## {name}\n\n`results/{file}.parquet`: each row is {row}."
-    own = [field for field in schema if field.name not in _COMMON.names]
-    if len(own) + len(_COMMON) == len(schema):
-        head += "\n\nColumns after those of [scene and setup](#scene-and-setup):"
-        schema = pa.schema(own)
-    return f"{head}\n\n{_table(schema)}"
+        shown = _table(pa.schema(own) if after else schema)
+        tables.append({"name": name, "file": file, "row": row, "after": after, "columns": shown})
+    return rendered("tables.md", common=_table(_COMMON), tables=tables)
 
 
 def _table(schema: pa.Schema) -> str:
