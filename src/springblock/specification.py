@@ -25,7 +25,7 @@ from springblock.model.surface import Surface
 from springblock.simulation.setup import DEFAULT, Setup
 
 Mask = NDArray[np.bool_]
-#: Blocks variables of sliding blocks by name, (N_y, N_x) each.
+#: State variables of sliding blocks by name, (N_y, N_x) each.
 Memory = dict[str, Array]
 
 #: Neighbours of a block, as offsets along y and x.
@@ -143,7 +143,7 @@ class Problem:
 
 
 @dataclass
-class Blocks:
+class State:
     """State of the blocks after k steps; in the leapfrog, v is the velocity half a step earlier."""
 
     k: int  #: steps taken
@@ -159,13 +159,13 @@ class Blocks:
 
 def follow(
     surface: Surface, setup: Setup = DEFAULT, direction: str | float = "x", steps: int = 1000
-) -> Iterator[Blocks]:
+) -> Iterator[State]:
     """Pull a surface from rest; yield its state after each of `steps` steps.
 
     Other arguments are those of `simulate`.
     """
     problem, zero = Problem(surface, setup, direction), np.zeros((2, *surface.contact.shape))
-    state = Blocks(0, zero, zero, problem.fresh, np.full(surface.contact.shape, np.inf))
+    state = State(0, zero, zero, problem.fresh, np.full(surface.contact.shape, np.inf))
     for _ in range(steps):
         state = SCHEMES[setup.integrator](problem, state)
         yield state
@@ -228,7 +228,7 @@ def release_theta(problem: Problem, f_c: Array, now: Array, u_before: Array, k: 
     return np.where(before <= f_c, theta, np.nan)
 
 
-def leapfrog(problem: Problem, state: Blocks) -> Blocks:
+def leapfrog(problem: Problem, state: State) -> State:
     """Take one step of the leapfrog, (7), with releases by (9) to (12)."""
     m, h, a, tau = problem.m, problem.h, problem.a, problem.tau
     k, u, v, contact = state.k, state.u, state.v, problem.contact
@@ -268,12 +268,12 @@ def leapfrog(problem: Problem, state: Blocks) -> Blocks:
     u = u + h * np.where(released, slip + speed, 1.0) * new
     v = np.where(released, speed, 1.0) * new
     path = h * float(np.sum(v**2))
-    return _with_ledger(problem, state, Blocks(k + 1, u, v, memory, t_det), switched, loss, path)
+    return _with_ledger(problem, state, State(k + 1, u, v, memory, t_det), switched, loss, path)
 
 
 def _with_ledger(
-    problem: Problem, before: Blocks, now: Blocks, switched: Mask, loss: Array, path: float
-) -> Blocks:
+    problem: Problem, before: State, now: State, switched: Mask, loss: Array, path: float
+) -> State:
     """Return `now` with the ledger of `before` and of this step; `loss` is frictional heat, J."""
     slide = problem.v_slider * problem.h
     pull = problem.k_s * (slide * now.k - now.u)
@@ -310,7 +310,7 @@ def _velocity_before(problem: Problem, memory: Memory, force: Array, new: Array)
     return np.where(new.any(axis=0), (w - kick) / a, 0.0)
 
 
-def runge_kutta(problem: Problem, state: Blocks) -> Blocks:
+def runge_kutta(problem: Problem, state: State) -> State:
     """Take one step of the Runge-Kutta method, (8), with releases by (9), (12) and (13)."""
     m, h, gamma = problem.m, problem.h, problem.gamma
     k, u, v, contact = state.k, state.u, state.v, problem.contact
@@ -358,7 +358,7 @@ def runge_kutta(problem: Problem, state: Blocks) -> Blocks:
     lost = np.where(turned, np.sum(new**2, axis=0) / 2.0, 0.0)
     slip = np.where(turned, 0.0, np.where(released, 0.0, slip) + np.sum(du * e, axis=0))
     new = np.where(turned, 0.0, new)
-    after, loss = Blocks(k + 1, u, new, {"slip": slip}, t_det), m * (friction_work / h + lost)
+    after, loss = State(k + 1, u, new, {"slip": slip}, t_det), m * (friction_work / h + lost)
     return _with_ledger(problem, state, after, released, loss, path)
 
 

@@ -103,7 +103,7 @@ class Kernel:
             slip = getattr(law, "slip", np.zeros(len(blocks.ux)))[: len(blocks.ux)]
             names, kept = ["slip"], [spacing * slip]
         joule = m.mass * spacing**2 / (STEP * self.integrator.force_time(STEP, m.gamma))
-        return specification.Blocks(
+        return specification.State(
             k=self.k,
             u=spacing * np.stack([ux, uy]),
             v=spacing / STEP * np.stack([vx, vy]),
