@@ -67,7 +67,8 @@ def _heading(name: str, value: Any) -> str:
 def _cell(name: str, value: Any) -> str:
     if isinstance(value, Interval):
         return number(value, factor=1e6 if _is_time(name, value) else 1.0)
-    return "" if value is None else str(value)
+    none = value is None or (name in ASKED.names and not value)
+    return "" if none else str(value)
 
 
 def _is_time(name: str, value: Any) -> bool:
