@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from springblock.analysis.statistics import mean_interval
-from springblock.continuum.cases import PLAIN, lowest_point
+from springblock.analysis.statistics import Interval, mean_interval
+from springblock.continuum.cases import PLAIN, SCATTER, lowest_point
 from springblock.continuum.theory import STIFFNESS, sharp_minimum
 from springblock.io.rows import Row, select
 from springblock.simulation.resolution import BLOCKS, LAYERS
@@ -37,7 +37,8 @@ def values(cells: Sequence[Row]) -> dict[str, Any]:
         "span": sorted(row["place"] for row in squares if row["what"].startswith(_EVEN)),
         "minima": minima,
         "squares": _converged(select(lattice, shape="square")),
-        "coulomb": _converged(select(cells, what="Coulomb")),
+        "coulomb": _refined(select(cells, what="Coulomb")),
+        "scatter": SCATTER,
         "healing": [*_by(healed, "shape", "slip_distance", "width").values()],
         "change": {
             (healing, gamma, round(1e9 * d_c)): max(row["apart"] for row in rows)
@@ -97,6 +98,16 @@ def _converged(rows: Sequence[Row]) -> list[dict[str, Any]]:
         order = math.log2(abs(first / last))
         found.append({"width": width, "friction": friction, "last": last, "order": order})
     return found
+
+
+def _refined(rows: Sequence[Row]) -> dict[str, Any]:
+    """Return mean friction by width, from the coarsest lattice on, and the smallest decrease."""
+    means: dict[float, list[Interval]] = {}
+    for (width, _), own in _by(rows, "width", "spacing").items():
+        mean = mean_interval([row["simulated"] for row in own])
+        means.setdefault(width, []).append(mean)
+    least = min(-float(np.diff([each.mean for each in own]).max()) for own in means.values())
+    return {"means": means, "least": least, "seeds": len(_by(rows, "seed"))}
 
 
 def _zones(rows: Sequence[Row]) -> dict[str, Any]:

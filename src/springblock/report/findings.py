@@ -39,7 +39,7 @@ def values(
         "size": lowest_size(realisations),
         "usual": limit["usual"],
         "last": max(abs(row["last"]) for row in limit["squares"]),
-        "coulomb": max(row["last"] for row in limit["coulomb"]),
+        "coulomb": limit["coulomb"]["least"],
         "errors": accuracy.errors(production),
         "seconds": max(row["cpu_seconds"] for row in select(production, step=STEP)),
     }
