@@ -30,7 +30,8 @@ def test_a_figure_has_the_verdicts_of_the_full_study(picture):
     first = STATEMENTS[0]
     text = page([picture(f"figure_{first.figure}.png", "a")], {})
     _, _, after = text.partition(str(typeset(first.title)))
-    assert f"{verdicts()[first.id]['holds']} of {verdicts()[first.id]['cases']} cases hold" in after
+    found = verdicts()[first.id]
+    assert f"holds in {found['holds']} of {found['cases']} cases" in after
     assert "#claims-" not in text
 
 
