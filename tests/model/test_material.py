@@ -6,10 +6,11 @@ from dataclasses import fields, replace
 import pytest
 
 from springblock import Material
+from springblock.model.material import LAWS
 
 PAPER = Material()
 MAY_VANISH = {"gamma", "mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std"}
-MAY_VANISH |= {"correlation_length", "slip_distance", "speed_scale"}
+MAY_VANISH |= {"correlation_length", *filter(None, LAWS.values())}
 NAMES = [field.name for field in fields(Material)]
 NUMBERS = [name for name in NAMES if name not in ("distribution", "law", "healing")]
 

@@ -17,12 +17,15 @@ from springblock import (
     simulate,
 )
 from springblock.accuracy.stability.cases import Pull
+from springblock.io.schemas import SETUP
+from springblock.model.material import LAWS
 from springblock.solver.integrators import INTEGRATORS, limit
 from validation.test_surfaces import assert_moved, moved
 
 LOADING = 200  #: steps until a block without neighbours would detach
 STEPS = 500
-LAWS = ["coulomb", "slip_weakening", "velocity_weakening"]
+#: Units of constants by name.
+UNITS = {column.name: column.metadata[b"unit"].decode() for column in SETUP}
 
 
 class Case(NamedTuple):
@@ -51,7 +54,7 @@ def cases(draw, periodic=None) -> Case:
     seed = draw(st.integers(0, 10**6))
     contact = np.random.default_rng(seed).random(shape) < draw(st.floats(0.2, 1.0))
     assume(contact.any())
-    law, spacing = draw(st.sampled_from(LAWS)), draw(decades(-6, -3))
+    law, spacing = draw(st.sampled_from(list(LAWS))), draw(decades(-6, -3))
     stiff = draw(decades(5, 12))  # Pa
     material = Material(
         youngs_modulus=stiff,
@@ -62,12 +65,12 @@ def cases(draw, periodic=None) -> Case:
         mu_dynamic=draw(st.floats(0.2, 0.9)),
     )
     slip, rate = material.block_load / material.k_s, material.omega_min
+    scales = {"m": slip, "m/s": slip * rate}
     material = replace(
         material,
         law=law,
         gamma=rate * draw(st.sampled_from([0.0, 1e-3, 0.1, 1.0])),
-        slip_distance=0.3 * slip if law == "slip_weakening" else 0.0,
-        speed_scale=0.3 * slip * rate if law == "velocity_weakening" else 0.0,
+        **{name: 0.3 * scales[UNITS[name]] for name in [LAWS[law]] if name},
     )
     integrator = draw(st.sampled_from(list(INTEGRATORS)))
     step = draw(st.floats(0.02, 0.2)) * limit(integrator, material)
