@@ -49,7 +49,7 @@ SETUP = [
     ),
     click.option(
         "--law",
-        help="Law of friction: coulomb, slip_weakening, velocity_weakening or a file FILE.py.",
+        help=f"Law of friction: {', '.join(LAWS)} or a file FILE.py.",
     ),
     defaulted(
         "--integrator",

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping
 from springblock.io.rows import Row
 from springblock.io.schemas import AXES, SETUP, said
 from springblock.model.direction import degrees
-from springblock.model.material import expanded, law_units
+from springblock.model.material import LAWS, expanded, law_units
 from springblock.model.scene import LENGTHS, TEXTS, Scene
 
 _DIGEST = re.compile(r"-[0-9a-f]{8}$")  #: at the end of the name of a mask
@@ -110,7 +110,7 @@ def _others(scene: Scene, over: str, constants: Mapping[str, str] | None = None)
         named["n_s/n_p"] = f"{scene.n_s / scene.n_p:.3g}"
         del named["n_s"]
     named.pop("N" if over == "n_blocks" else over, None)
-    if over in ("slip_distance", "speed_scale"):  # at zero they are Coulomb's law
+    if over in LAWS.values():  # at zero they are Coulomb's law
         named.pop("law", None)
     return tuple(named.items())
 
