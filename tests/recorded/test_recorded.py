@@ -130,7 +130,7 @@ def errors_measured() -> str:
     """The tables of errors on three small surfaces, of made-up runs, without CPU times."""
 
     def simulated(surface: Surface, setup: Setup, **_: Any) -> Any:
-        order = {"leapfrog": 2.0, "rk4": 1.0}[setup.integrator]
+        order = 1.0 if setup.integrator == "rk4" else 2.0
         return made_up(surface, setup.step, setup.sample_interval, order)
 
     def exact(scene: str) -> Any:

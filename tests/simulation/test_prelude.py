@@ -15,6 +15,7 @@ from springblock import (
 )
 from springblock.simulation.motion import Motion
 from springblock.simulation.prelude import HOLDING
+from springblock.solver.integrators import INTEGRATORS
 from springblock.solver.springs import Grid
 
 PILLARS = Pattern.pillars(12, 4, 2)
@@ -32,7 +33,7 @@ def skipped(prelude, surface):
     return motion.samples
 
 
-@pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
+@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_a_run_from_the_prelude_is_the_run_from_zero(integrator):
     """Also on several bands of rows; `validation/test_properties.py` has all smaller surfaces."""
     contact = Pattern.pillars(48, 10, 14).contact

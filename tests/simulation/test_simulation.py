@@ -254,7 +254,10 @@ def array(value, dtype=float, shape=(2, 2)):
         ({"surface": array(True, bool)}, "surface must be a Surface, not array"),
         ({"setup": PAPER}, "setup must be a Setup, not Material"),
         ({"material": {"pressure": 5e4}}, "material must be a Material"),
-        ({"integrator": "euler"}, "integrator must be one of leapfrog, rk4, not 'euler'"),
+        (
+            {"integrator": "euler"},
+            f"must be one of {', '.join(INTEGRATORS)}, not 'euler'",
+        ),
         ({"direction": "z"}, "direction must be 'x', 'y' or an angle"),
         ({"periodic": 1}, "periodic must be True or False, not 1"),
         ({"periodic": True, "contact": array(True, bool, (2, 3))}, "each side .* at least 3"),

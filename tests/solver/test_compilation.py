@@ -8,10 +8,14 @@ import sys
 from pathlib import Path
 
 import pytest
+from numba import typeof
 
 from kernels import COMPILING, run_kernels
+from springblock import Material, Surface
 from springblock.solver import compilation
 from springblock.solver.compilation import _cache_folder, _digest, _OneCompiler
+from springblock.solver.integrators import INTEGRATORS
+from springblock.solver.lattice import prepare
 
 
 def test_each_kind_of_processor_and_each_setting_compiles_once(tmp_path):
@@ -128,6 +132,15 @@ def test_an_import_changes_no_setting_of_numba():
         assert dict(vars(numba.config)) == before
     """
     subprocess.run([sys.executable, "-c", script], check=True)
+
+
+def test_numba_tells_the_work_arrays_of_all_integrators_apart():
+    """By their names, by which machine code is linked: a step would be that of another one."""
+    names = set()
+    for each in INTEGRATORS.values():
+        how = Surface([[True]], 1.0, 0.6), Material(), (1.0, 0.0), each, 2e-8
+        names.add(typeof(each.kernels.Work.of(*prepare(*how))).name)
+    assert len(names) == len(INTEGRATORS)
 
 
 def test_one_process_compiles_at_a_time(tmp_path):

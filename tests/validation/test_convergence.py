@@ -123,14 +123,15 @@ def test_an_oblong_surface_is_loaded_as_by_plain_runge_kutta():
 
 
 @pytest.mark.parametrize("law", LAWS)
-def test_both_integrators_converge_to_one_answer_as_friction_weakens(law):
+def test_all_integrators_converge_to_one_answer_as_friction_weakens(law):
     """Every block has detached: t_det agrees to a share of a step that falls with the step."""
     material, apart = replace(FAST, law=law, **LAWS[law]), []
     for step in (5e-9, 1.25e-9):
         setups = [Setup(material, name, step, INTERVAL) for name in INTEGRATORS]
         runs = [simulate(SURFACE, setup, duration=1.5e-5) for setup in setups]
         assert np.isfinite(runs[0].t_det).all()
-        apart.append(np.sqrt(np.mean((runs[0].t_det - runs[1].t_det) ** 2)))
+        times = [run.t_det for run in runs]
+        apart.append(max(np.sqrt(np.mean((each - times[0]) ** 2)) for each in times[1:]))
         for run in runs:
             assert abs(run.energy.relative_residual) < (FAST.omega_min * step) ** 2
     assert apart[0] < 5e-9 / 2.0

@@ -142,7 +142,7 @@ def test_no_bit_depends_on_prelude_cores_or_snapshots(case, sample):
     prelude = compute_prelude(surface.contact, *how, mu_static=surface.mu_static)
     watched = {"snapshot_times": [sample * setup.sample_interval]}
     runs = [case.run(**options) for options in ({}, watched, watched | {"prelude": prelude})]
-    if setup.integrator == "leapfrog":
+    if INTEGRATORS[setup.integrator].uses_cores:
         runs.append(case.run(cores=2))
     for run in runs[1:]:
         for name in ("force", "t_det", "switches", "displacement", "velocity"):

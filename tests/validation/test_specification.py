@@ -122,12 +122,13 @@ def assert_same(found, exact, scale, name, error=SERIES_ERROR):
     np.testing.assert_allclose(found, exact, rtol=0.0, atol=error * scale, err_msg=name)
 
 
+KEEPERS = [name for name, each in INTEGRATORS.items() if each.keeps_state]
 #: All surfaces under Coulomb's law, and all laws on grooves.
 STEPPED = [
     *product(INTEGRATORS, ["coulomb"], SURFACES, [False]),
     *product(INTEGRATORS, ["coulomb"], ["pillars"], [True]),
     *product(INTEGRATORS, sorted(LAWS.keys() - {"coulomb", "no healing"}), ["grooves"], [True]),
-    *product(["leapfrog"], [*FILES, "no healing"], ["grooves"], [False]),
+    *product(KEEPERS, [*FILES, "no healing"], ["grooves"], [False]),
 ]
 
 
@@ -167,7 +168,11 @@ def test_each_step_is_that_of_the_specification(integrator, law, name, periodic)
 
 @pytest.mark.parametrize(
     ("integrator", "periodic", "surface"),
-    [("leapfrog", False, "pillars"), ("leapfrog", True, "grooves"), ("rk4", True, "pillars")],
+    [
+        ("leapfrog", False, "pillars"),
+        ("leapfrog", True, "grooves"),
+        *((name, True, "pillars") for name in INTEGRATORS if name != "leapfrog"),
+    ],
 )
 def test_whole_runs_are_those_of_the_specification(integrator, periodic, surface):
     """What the solver skips, stores and samples changes nothing, with a prelude or without."""
@@ -179,7 +184,7 @@ def test_whole_runs_are_those_of_the_specification(integrator, periodic, surface
     assert known.sum() > 3
     slider = FAST.slider_velocity * STEP * np.outer(np.arange(1, 151), heading(ANGLE))
     pull = FAST.k_s * (slider * contact.size - [each.u.sum(axis=(1, 2)) for each in states])
-    then = ahead if integrator == "leapfrog" else last  # whose velocities are at half steps
+    then = ahead if INTEGRATORS[integrator].staggered else last
     velocity, heat = (last.v + then.v) / 2, (last.heat + then.heat) / 2
     setup = replace(setup, sample_interval=STEP)
     for prelude in (None, compute_prelude(contact, setup, ANGLE, periodic)):

@@ -48,7 +48,7 @@ SCHEMA = pa.schema(
             scene="flat, pillared or grooved",
         ),
         N_BLOCKS,
-        *texts(integrator="leapfrog, rk4 or plain rk4"),
+        *texts(integrator=f"{', '.join(INTEGRATORS)} or {PLAIN}"),
         *numbers("s", step="integration step h"),
         *texts(quantity="quantity to which the error refers"),
         *numbers(

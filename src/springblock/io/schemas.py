@@ -5,6 +5,7 @@ from dataclasses import fields
 import pyarrow as pa
 
 from springblock.model.material import Material
+from springblock.solver.integrators import INTEGRATORS
 
 
 def column(name: str, kind: pa.DataType, unit: str, meaning: str) -> pa.Field:
@@ -80,7 +81,7 @@ SETUP = pa.schema(
             )
             for each in fields(Material)
         ),
-        column("integrator", pa.string(), "1", "leapfrog or rk4"),
+        column("integrator", pa.string(), "1", " or ".join(INTEGRATORS)),
         column("step", pa.float64(), "s", "integration step h"),
         column("sample_interval", pa.float64(), "s", "time between samples of the force"),
     ]

@@ -160,15 +160,17 @@ def _draw_steps(ax: Axes, cases: DataFrame) -> None:
 
 def _draw_overview(ax: Axes, cases: DataFrame) -> None:
     """Draw error over accepted error for each family, with its cases side by side."""
-    families = list(dict.fromkeys(cases.family))
+    families, methods = list(dict.fromkeys(cases.family)), list(style.METHODS)
+    beside = dict(zip(methods, np.linspace(-0.21, 0.21, len(methods)), strict=True))
+    reach = 0.26 / len(methods)
     nothing = cases.tolerance.isna() & ~cases.outcome.isin(_ENDS)
     cases = cases.assign(outcome=cases.outcome.mask(nothing, "nothing"))
     for (family, integrator), runs in cases.groupby(["family", "integrator"]):
         look = style.METHODS[str(integrator)] | {"linestyle": ""}
-        middle = families.index(family) + (-0.21 if integrator == "leapfrog" else 0.21)
+        middle = families.index(family) + beside[str(integrator)]
         known = runs.dropna(subset="tolerance").sort_values("parameter", kind="stable")
         share = (known.relative_error.abs() / known.tolerance).clip(lower=_LEAST)
-        aside = np.linspace(-0.13, 0.13, len(share)) if len(share) > 1 else 0.0
+        aside = np.linspace(-reach, reach, len(share)) if len(share) > 1 else 0.0
         ax.plot(np.full(len(share), middle) + aside, share, **look)
         for outcome in (end for end in _ENDS if end in set(runs.outcome)):
             _mark(ax, [middle], outcome, **look)
@@ -212,10 +214,10 @@ def _draw_errors(ax: Axes, cases: DataFrame, error: str) -> None:
 
 def _draw_ends(ax: Axes, cases: DataFrame) -> None:
     """Mark the cases that end early at the top of the panel."""
-    for (integrator, look), below in zip(style.METHODS.items(), (0.0, 0.08), strict=True):
+    for i, (integrator, look) in enumerate(style.METHODS.items()):
         for outcome in _ENDS:
             runs = cases[(cases.integrator == integrator) & (cases.outcome == outcome)]
-            _mark(ax, runs.parameter, outcome, below, **look)
+            _mark(ax, runs.parameter, outcome, 0.08 * i, **look)
 
 
 def _mark(ax: Axes, places: Any, outcome: str, below: float = 0.0, **look: Any) -> None:

@@ -79,7 +79,8 @@ class Setup:
         lasting = self.material.healing == "none"
         if (lasting or isinstance(law, LawFile)) and not INTEGRATORS[self.integrator].keeps_state:
             what = "healing none" if lasting else f"the law {law}"
-            raise ValueError(f"integrator must be leapfrog with {what}, not {self.integrator!r}")
+            able = " or ".join(name for name, each in INTEGRATORS.items() if each.keeps_state)
+            raise ValueError(f"integrator must be {able} with {what}, not {self.integrator!r}")
         if not is_stable(self.integrator, self.step, self.material):
             raise ValueError(
                 f"step = {self.step:.4g} s is unstable: {self.integrator} needs less than "

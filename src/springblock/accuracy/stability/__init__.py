@@ -28,7 +28,7 @@ SCHEMA = pa.schema(
         *texts(
             case="name of the case",
             family="parameter that is extreme",
-            integrator="leapfrog or rk4",
+            integrator=" or ".join(INTEGRATORS),
         ),
         *numbers(
             "1",

@@ -105,9 +105,9 @@ def frictions(integrator: str) -> Iterator[Case]:
     case = partial(Case, "damping", integrator)
     for gamma in (0.0, 0.01, 0.1, 1.0, 2.0, 10.0, 100.0, 1e4):
         material = with_damping(gamma, SPEED)
-        if gamma > 100.0 and integrator == "rk4":
+        share = limit("leapfrog", material) / limit(integrator, material)
+        if gamma > 100.0 and share > 1.0:  # damping is not exact, and limits the step
             name = f"pillars with gamma = {gamma:g} omega at leapfrog's limit"
-            share = limit("leapfrog", material) / limit("rk4", material)
             attempt = partial(beyond_the_limit, material=material, share=share)
             yield case(name, gamma, "none", attempt, "refused")
         else:
