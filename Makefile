@@ -12,15 +12,15 @@ unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
 .PHONY: all quick full docs site test browser test-slurm test-versions coverage mutants bench bench-ratios setup lock clean
 
-# The paper's figures and their errors, in seven minutes on two cores.
+# The paper's figures and their errors, in four to seven minutes on two cores.
 all: setup
 	$(BIN)/snakemake
 
-# The same figures from small ensembles, in two minutes.
+# The same figures from small ensembles, in one to two minutes.
 quick: setup
 	$(BIN)/snakemake --configfile config/quick.yaml
 
-# The whole study, from which the pages in docs are made, in about ninety minutes.
+# The whole study, from which the pages in docs are made, in 40 to 70 minutes.
 full: setup
 	$(BIN)/snakemake --configfile config/full.yaml
 
