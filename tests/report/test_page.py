@@ -112,6 +112,19 @@ def test_a_film_is_told_in_words(tmp_path):
     assert "nan" not in media.in_words(still)
 
 
+def test_means_are_those_of_ensembles_with_the_constants_of_the_study(springblock, tmp_path):
+    own, other, table = (tmp_path / f"{name}.parquet" for name in ("own", "other", "realisations"))
+    how = "simulate", "--n-blocks", 8, "--duration", 2e-6, "--output"
+    springblock(*how, own)
+    springblock(*how, other, "--vary", "gamma=4321")
+    springblock("aggregate", own, other, "--configuration", 0, "--output", table)
+    said = re.sub(r"<script.*", "", page([table], {}), flags=re.DOTALL)
+    means = said.partition('id="means"')[2].partition("</section>")[0]
+    assert means.count("<tr>") == 2  # a heading and one ensemble
+    assert "4321" not in means
+    assert "2 realisations" in said
+
+
 def test_captions_are_those_that_pictures_keep(picture):
     declared = FIGURES["figure_6"]
     shown = media.picture(picture("figure_6.png", f"{declared.caption} N = 120, seeds 0 to 19."))

@@ -9,6 +9,7 @@ from springblock.analysis.ensembles import Change, Ensemble, from_first, mean, t
 from springblock.analysis.statistics import Interval, number
 from springblock.io.rows import Row
 from springblock.io.schemas import ASKED, SCENE, SETUP, said
+from springblock.model.scene import LENGTHS
 
 #: Units of lengths and constants, by name.
 UNITS = {
@@ -16,6 +17,9 @@ UNITS = {
     for field in (*SCENE, *SETUP, *ASKED)
     if (unit := said(field)[0]) != "1" and not pa.types.is_string(field.type)
 }
+
+#: Lengths and times that are zero where there is none.
+_NONE_AT_ZERO = {*LENGTHS, *ASKED.names}
 
 
 def means(members: Sequence[Ensemble], of: Sequence[str], by: Sequence[str] = ()) -> list[Row]:
@@ -67,7 +71,7 @@ def _heading(name: str, value: Any) -> str:
 def _cell(name: str, value: Any) -> str:
     if isinstance(value, Interval):
         return number(value, factor=1e6 if _is_time(name, value) else 1.0)
-    none = value is None or (name in ASKED.names and not value)
+    none = value is None or (name in _NONE_AT_ZERO and not value)
     return "" if none else str(value)
 
 

@@ -53,13 +53,14 @@ def report_page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = F
     rows = {name: table.to_pylist() for name, table in data.items()}
     if own and "realisations" not in rows:
         raise ValueError("a report on own scenes needs the table realisations.parquet")
-    members = ensembles(rows.get("realisations", []))
+    runs = rows.get("realisations", [])
+    members = ensembles(row for row in runs if own or not row["varied"])
     content = _of_own(members) if own else _of_study(figures, pages)
     return rendered(
         "own.html" if own else "page.html",
         **content,
         means=_spaced(means(members, OBSERVED)) if members else (),
-        n_runs=len(rows.get("realisations", [])),
+        n_runs=len(runs),
         figures=figures,
         pages=pages,
         films=[media.moving(file, batch) for file, batch in films.items()],
