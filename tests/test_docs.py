@@ -13,7 +13,8 @@ from springblock.claims import STATEMENTS
 from springblock.claims.full_study import verdicts
 from springblock.cli import main
 from springblock.io.schemas import SETUP
-from springblock.report.dictionary import dictionary_page
+from springblock.pages import rendered
+from springblock.report.dictionary import contents
 from springblock.report.findings import FILE
 
 ROOT = Path(__file__).parents[1]
@@ -27,7 +28,7 @@ LINKING += [str(file.relative_to(ROOT)) for file in sorted(ROOT.glob("docs/**/*.
 
 
 def test_the_dictionary_of_tables_is_what_the_code_writes():
-    assert PAGES["tables"] == dictionary_page()
+    assert PAGES["tables"] == rendered("tables.md", **contents())
 
 
 def symbols(heading):

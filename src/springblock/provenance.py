@@ -33,7 +33,7 @@ STEPS: dict[str, tuple[str, ...]] = {
     "continuum.md": ("model", "io", "analysis", "continuum", "pages", "pages/continuum.md"),
     "claims.md": (*_STATEMENTS, "claims", "claims/statements.toml", "pages", "pages/claims.md"),
     "report": (
-        *(*_STATEMENTS, "continuum", "claims", "pages", "plotting", "report"),
+        *(*_STATEMENTS, "continuum", "claims", "plotting", "report"),
         *("claims/statements.toml", "claims/full_study.csv", "plotting/captions.toml"),
         *("report/*.html", "report/*.css", "report/*.js", "report/*.md"),
     ),

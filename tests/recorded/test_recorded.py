@@ -99,7 +99,8 @@ def accuracy() -> str:
     single = uneven(precision.precision_rows(), "error", "ci_low", "ci_high")
     cases = [("size", "agrees"), ("size", "unstable"), ("step", "agrees"), ("damping", "refused")]
     stability = [{"family": name, "expected": word, "outcome": word} for name, word in cases]
-    realisations = [{"energy_error": 1e-6 * each} for each in (-3.0, 1.0, 2.0, 700.0)]
+    errors = {-3.0: "", 1.0: "", 2.0: "", 700.0: "gamma=1e7"}
+    realisations = [{"energy_error": 1e-6 * e, "varied": varied} for e, varied in errors.items()]
     columns = ("value", "scale", "deviation", "bias", "bias_error", "ci_low", "ci_high")
     whole = uneven(precision.production_rows(), *columns)
     return rendered("accuracy.md", **values(single, stability, realisations, whole))

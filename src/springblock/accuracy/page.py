@@ -92,6 +92,7 @@ def values(
             for step in (PAPER_STEP, 2.0 * PAPER_STEP)
         ],
         "n_runs": len(residuals),
+        "usual_energy": max(abs(row["energy_error"]) for row in realisations if not row["varied"]),
         "worst_energy": max(residuals),
         "median_energy": median(residuals),
         "stability": stability,

@@ -18,7 +18,7 @@ from springblock.io.parquet import load, origin_of, refuse_mixed_code
 from springblock.io.rows import Row, limits
 from springblock.io.schemas import SUMMARY
 from springblock.provenance import configuration_digest
-from springblock.report.dictionary import columns, dictionary_page
+from springblock.report.dictionary import columns, contents
 
 _PATH = click.Path(exists=True, path_type=Path)
 _SHOWN = 5  #: largest number of ensembles listed that only one side has
@@ -202,4 +202,6 @@ def info(file: Path) -> None:
 @click.option("--output", type=Output(".md"), required=True, help="Markdown file.")
 def dictionary(output: Path) -> None:
     """Write the columns of all tables with units and meanings."""
-    write_text(output, dictionary_page())
+    from springblock.pages import rendered  # needs the packages of the study
+
+    write_text(output, rendered("tables.md", **contents()))

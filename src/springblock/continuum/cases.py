@@ -6,6 +6,7 @@ python -m springblock.continuum.cases > docs/registration/continuum.csv    # the
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import product
 
 import numpy as np
@@ -131,12 +132,12 @@ def _lattices() -> Iterator[Series]:
     for spacing in (5e-6, 2.5e-6, 1.25e-6):
         fine = replace(PLAIN, spacing=spacing)
         yield Series("square", "lattice", fine, widths=(4, 6, 10), predicted=spacing > 2e-6)
-    coulomb = replace(PLAIN, law="coulomb", slip_distance=0.0, healing="instant")
-    coulomb = replace(coulomb, mu_static_std=SCATTER)
+    coulomb = replace(
+        PLAIN, law="coulomb", slip_distance=0.0, healing="instant", mu_static_std=SCATTER
+    )
+    series = partial(Series, "square", "Coulomb", widths=(4, 8, 16), seeds=tuple(range(10)))
     for spacing in (1e-5, 5e-6, 2.5e-6):
-        coarse = replace(coulomb, spacing=spacing)
-        widths, seeds = (4, 8, 16), tuple(range(10))
-        yield Series("square", "Coulomb", coarse, 1.0, widths, seeds=seeds, predicted=False)
+        yield series(replace(coulomb, spacing=spacing), predicted=False)
     for spacing, d_c in product((5e-6, 2.5e-6, 1.25e-6, 6.25e-7), (2e-8, 3e-8, 5e-8, 1e-7)):
         zone = replace(PLAIN, spacing=spacing, slip_distance=d_c)
         yield Series("across", "lattice", zone, widths=(4.0825, 6.532, 9.798))

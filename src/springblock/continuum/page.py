@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -101,12 +102,14 @@ def _converged(rows: Sequence[Row]) -> list[dict[str, Any]]:
 
 
 def _refined(rows: Sequence[Row]) -> dict[str, Any]:
-    """Return mean friction by width, from the coarsest lattice on, and the smallest decrease."""
+    """Return friction by width, from the coarsest lattice on, and the least gap of intervals."""
     means: dict[float, list[Interval]] = {}
-    for (width, _), own in _by(rows, "width", "spacing").items():
-        mean = mean_interval([row["simulated"] for row in own])
-        means.setdefault(width, []).append(mean)
-    least = min(-float(np.diff([each.mean for each in own]).max()) for own in means.values())
+    ordered = sorted(rows, key=lambda row: (row["width"], -row["spacing"]))
+    for (width, _), own in _by(ordered, "width", "spacing").items():
+        means.setdefault(width, []).append(mean_interval([row["simulated"] for row in own]))
+    least = min(
+        float(coarse.low - fine.high) for own in means.values() for coarse, fine in pairwise(own)
+    )
     return {"means": means, "least": least, "seeds": len(_by(rows, "seed"))}
 
 

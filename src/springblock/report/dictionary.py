@@ -1,6 +1,7 @@
 """What the tables of a study hold: every column with its unit and its meaning."""
 
 from functools import cache
+from typing import Any
 
 import pyarrow as pa
 
@@ -46,10 +47,8 @@ def kinds() -> dict[str, tuple[str, pa.Schema]]:
     }
 
 
-def dictionary_page() -> str:
-    """Write the dictionary of all tables, in Markdown."""
-    from springblock.pages import rendered  # needs Jinja2, which reading tables does not
-
+def contents() -> dict[str, Any]:
+    """Return what the template of the page of all tables names."""
     tables = []
     for name, (row, schema) in kinds().items():
         own = [field for field in schema if field.name not in _COMMON.names]
@@ -57,7 +56,7 @@ def dictionary_page() -> str:
         file = _BATCHES if name == "batches" else f"tables/{name}"
         shown = _table(pa.schema(own) if after else schema)
         tables.append({"name": name, "file": file, "row": row, "after": after, "columns": shown})
-    return rendered("tables.md", common=_table(_COMMON), tables=tables)
+    return {"common": _table(_COMMON), "tables": tables}
 
 
 def _table(schema: pa.Schema) -> str:
