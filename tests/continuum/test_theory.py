@@ -4,12 +4,29 @@ import math
 
 import numpy as np
 import pytest
-from scipy.optimize import minimize_scalar
+from scipy.optimize import brentq, minimize_scalar
 
 from springblock import Material
-from springblock.continuum.theory import Groups, Slip, Square, sharp, sharp_minimum, stripe
+from springblock.continuum.theory import Groups, Peak, Slip, Square, sharp_minimum, stripe
 
 RESIDUAL = 1.5  #: mu_d/(mu_s - mu_d) of the paper
+
+
+def sharp(width, residual, kappa):
+    """Peak with sharp fronts and wide gaps.
+
+    p = sqrt(kappa) - m exp(-s) while s grows, which is always stable. The excess p c + sqrt(kappa)
+    of a core of half-width c = a/2 - s is largest where m exp(-s) (1 + c) = sqrt(kappa).
+    """
+    front = math.sqrt(kappa)
+
+    def rise(s):
+        return residual * math.exp(-s) * (1.0 + width / 2.0 - s) - front
+
+    s = brentq(rise, 0.0, width / 2.0) if rise(width / 2.0) < 0.0 else width / 2.0
+    p = front - residual * math.exp(-s)
+    excess = (p * (width / 2.0 - s) + front) * 2.0 / width
+    return Peak(excess, s, p, True)
 
 
 def test_the_groups_are_those_of_the_papers_layer():

@@ -1,7 +1,4 @@
-"""Unit cells of one pillar or stripe: what the theory predicts, and the simulation of the same.
-
-python -m springblock.continuum.cases > docs/registration/continuum.csv    # the predictions
-"""
+"""Unit cells of one pillar or stripe: what the theory predicts, and the simulation of the same."""
 
 import math
 from collections.abc import Iterator
@@ -239,18 +236,3 @@ def lowest_point(widths: np.ndarray, values: np.ndarray) -> tuple[float, float]:
         return float(widths[i]), float(values[i])
     a, b, c = np.polyfit(np.log(widths[i - 1 : i + 2]), values[i - 1 : i + 2], 2)
     return math.exp(-b / (2.0 * a)), float(c - b * b / (4.0 * a))
-
-
-def predictions() -> Iterator[str]:
-    """Yield what the theory predicts for `across`, `along` and `square`, as lines of a table."""
-    yield "shape,what,kappa,width,friction,lowest_at,lowest"
-    for series in (each for shape in ("across", "along", "square") for each in SERIES[shape]):
-        widths = np.array(series.blocks) * series.material.spacing
-        found = np.array([series.prediction(n) for n in series.blocks])
-        for own in zip(widths, found, strict=True):
-            numbers = series.groups.kappa, *own, *lowest_point(widths, found)
-            yield ",".join([series.shape, series.what, *(f"{number:.4g}" for number in numbers)])
-
-
-if __name__ == "__main__":
-    print(*predictions(), sep="\n")

@@ -150,23 +150,6 @@ def _load(zone: _Weakening, s: float, residual: float, pull: float) -> float:
     return float(brentq(unbalanced, -residual, 1.0, xtol=1e-14))
 
 
-def sharp(width: float, residual: float, kappa: float) -> Peak:
-    """Return the peak with sharp fronts and wide gaps; lengths in lambda.
-
-    p = sqrt(kappa) - m exp(-s) while s grows, which is always stable. The excess p c + sqrt(kappa)
-    of a core of half-width c = a/2 - s is largest where m exp(-s) (1 + c) = sqrt(kappa).
-    """
-    front = math.sqrt(kappa)
-
-    def rise(s: float) -> float:
-        return residual * math.exp(-s) * (1.0 + width / 2.0 - s) - front
-
-    s = float(brentq(rise, 0.0, width / 2.0)) if rise(width / 2.0) < 0.0 else width / 2.0
-    p = front - residual * math.exp(-s)
-    excess = (p * (width / 2.0 - s) + front) * 2.0 / width
-    return Peak(excess, s, p, True)
-
-
 def sharp_minimum(residual: float, kappa: float) -> tuple[float, float]:
     """Return the width of lowest friction over lambda, and its excess, with b = a.
 
