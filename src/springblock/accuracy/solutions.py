@@ -93,7 +93,7 @@ def digest() -> str:
             fields = surface.contact, surface.mu_static, surface.mu_dynamic
             surfaces.append([scene, small.duration, np.round(np.array(fields), 12).tolist()])
     code = digest_of(Path(reference.__file__))
-    # those of other laws are zero
+    # without those of other laws, which are zero
     constants = {name: value for name, value in Material().items() if value}
     constants["sample_interval"] = SAMPLE_INTERVAL
     return configuration_digest({"code": code, "constants": constants, "surfaces": surfaces})
