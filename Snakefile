@@ -20,15 +20,9 @@ container: "container/springblock.sif"
 
 
 include: "workflow/rules/common.smk"
-include: "workflow/rules/drawn.smk"
 include: "workflow/rules/simulate.smk"
-include: "workflow/rules/correlation.smk"
-include: "workflow/rules/accuracy.smk"
-include: "workflow/rules/mechanism.smk"
-include: "workflow/rules/continuum.smk"
-include: "workflow/rules/claims.smk"
+include: "workflow/rules/chapters.smk"
 include: "workflow/rules/figures.smk"
-include: "workflow/rules/report.smk"
 
 
 rule all:
@@ -38,40 +32,13 @@ rule all:
         rules.simulate.input,
         rules.fields.input,
         rules.aggregate.output,
-        CORRELATED,
-        rules.correlations.input,
-        rules.means.output if OWN else [rules.claims_table.output, rules.claims.output],
+        CORRELATIONS,
+        rules.means.output if PLANNED.own else [],
+        rules.pages.input,
         rules.figures.input,
-        FILMED,
+        rules.films.input,
         rules.report.output,
-        [
-            rules.precision_table.input,
-            rules.production_table.input,
-            rules.accuracy.input,
-            rules.accuracy.output,
-        ]
-        if config["accuracy"]
-        else [],
-        rules.reference_solutions.output if config["accuracy"] and config["verification"] else [],
-        MODEL_PARTS,
-        MODELS,
-        SENSITIVE,
-        EXPLAINED,
-        CONTINUUM,
     localrule: True
-    message:
-        f"The study is complete; its tables and figures are in {RESULTS}"
-
-
-#: Files of the finished study.
-NEEDED = [str(file) for file in rules.all.input]
-#: Files that it may also have: for jobs that are yet to run, and of rules that run only if named.
-SPARE = [*PRELUDES, *CUTS_MADE, *PARTS, *map(str, workflow.concrete_files)]
-SPARE = [file for file in SPARE if Path(file).is_relative_to(RESULTS)]
-
-
-onerror:
-    watched.tell_errors()
 
 
 onsuccess:

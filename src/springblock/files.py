@@ -1,7 +1,6 @@
-"""Files that are written whole or not at all, and checked for damage when they are read."""
+"""Files that are written whole or not at all, and arrays read from them."""
 
 import contextlib
-import hashlib
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,12 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 #: Advice for a file of a study that cannot be used.
-MENDING = "`snakemake repair` sets it aside, and the next `snakemake` makes it again if needed"
-
-_MARK = b"springblock-sha256:"
-#: Placeholder, in content to be sealed, for the digest of the whole content.
-BLANK = _MARK + 64 * b"0"
-
+MENDING = "delete it, and `snakemake` makes it again"
 
 def check_output(path: Path) -> None:
     """Refuse to write to a path that exists and is not a regular file.
@@ -52,34 +46,6 @@ def write_text(path: Path, text: str) -> None:
     """Write a text whole or not at all."""
     with whole_file(path) as partial:
         partial.write_text(text, encoding="utf-8")
-
-
-def write_sealed(path: Path, content: bytes) -> None:
-    """Write content whole or not at all, with its digest in place of `BLANK`.
-
-    The checksums of Parquet cover the pages, but not the footer with their positions.
-    """
-    with whole_file(path) as partial:
-        partial.write_bytes(content.replace(BLANK, _seal(content)))
-
-
-def read_sealed(path: Path) -> bytes:
-    """Read a file that `write_sealed` has written; a single changed bit is a ValueError."""
-    content = path.read_bytes()
-    start = content.rfind(_MARK)
-    if start < 0:
-        raise ValueError(
-            f"{path} has no checksum; it is truncated, or not a table (Parquet) written by "
-            f"springblock; {MENDING}"
-        )
-    end = start + len(BLANK)
-    if _seal(content[:start] + BLANK + content[end:]) != content[start:end]:
-        raise ValueError(f"{path} is damaged: its checksum does not match; {MENDING}")
-    return content
-
-
-def _seal(content: bytes) -> bytes:
-    return _MARK + hashlib.sha256(content).hexdigest().encode()
 
 
 #: Largest size of an unpacked file, bytes: a prelude has up to six states of 4096 x 4096 blocks.

@@ -3,8 +3,8 @@
 import ast
 import hashlib
 import json
+import os
 import tomllib
-from collections.abc import Mapping
 from functools import cache
 from importlib.metadata import version
 from itertools import chain
@@ -42,6 +42,44 @@ STEPS: dict[str, tuple[str, ...]] = {
 _DESCRIBING = {"schemas.py"}
 
 
+#: Environment variable with the plan of the study that a job belongs to, see `planned`.
+PLAN = "SPRINGBLOCK_PLAN"
+
+
+def planned(study: str) -> str:
+    """Return a plan for the jobs of a study: its digest, and for each step those of its code."""
+    return json.dumps({"study": study, "code": {step: [digest(step), _sources(step)] for step in STEPS}})
+
+
+def made_by(step: str) -> dict[str, str]:
+    """Return metadata for the file that a step writes: the version of its code.
+
+    A job of a study takes it from the plan. Raises ValueError if the code is no longer the planned.
+    """
+    plan = _plan()
+    if not plan:
+        return {"code_version": code_version(step)}
+    code, sources = plan["code"][step]
+    if sources != _sources(step):
+        raise ValueError("the code changed while the study ran; run `snakemake` again")
+    return {"code_version": f"{version('springblock')}+{code}"}
+
+
+def of_study(step: str) -> dict[str, str]:
+    """Return the same with the digest of the study, for tables of its realisations."""
+    return made_by(step) | {"study": study()}
+
+
+def study() -> str:
+    """Return the digest of the study that this job belongs to, or ""."""
+    return str(_plan().get("study", ""))
+
+
+def _plan() -> dict[str, Any]:
+    plan: dict[str, Any] = json.loads(os.environ.get(PLAN, "{}"))
+    return plan
+
+
 @cache
 def digest(step: str) -> str:
     """Return the digest of the code of a step; 16 hexadecimal digits.
@@ -49,6 +87,16 @@ def digest(step: str) -> str:
     It does not depend on comments, layout, docstrings and the text of `raise`.
     """
     return _short("".join(map(_of, STEPS[step])))
+
+
+def _sources(step: str) -> str:
+    """Return the digest of the bytes of the files of a step, as they are now."""
+    content = hashlib.sha256()
+    for part in STEPS[step]:
+        name = part.split()[0]
+        for file in sorted(_ROOT.glob(name if "." in name else f"{name}/**/*.py")):
+            content.update(file.read_bytes())
+    return content.hexdigest()[:16]
 
 
 def digest_of(file: Path) -> str:
@@ -66,9 +114,9 @@ def same_code(one: str, other: str) -> bool:
     return one.rpartition("+")[2] == other.rpartition("+")[2]
 
 
-def configuration_digest(configuration: Mapping[str, Any]) -> str:
-    """Return the digest of the configuration of a study or of a batch."""
-    return _short(json.dumps(configuration, sort_keys=True))
+def digest_of_data(data: Any) -> str:
+    """Return the digest of data that JSON can hold, whatever the order of keys."""
+    return _short(json.dumps(data, sort_keys=True))
 
 
 @cache

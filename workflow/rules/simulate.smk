@@ -1,213 +1,170 @@
+# From scenes to realisations, their table and correlations.
+
 from springblock.solver.integrators import INTEGRATORS
 
-# From scenes to realisations and their table. The rule `simulate` stands for all jobs of `simulate_batch`,
-# and `fields` for those of `fields_of_scene`.
+#: Integrators that are compiled before any job needs them.
+COMPILED = INTEGRATORS if config["accuracy"] else PLANNED.integrators
 
-#: Numerical method and material of all scenes, as options of the command line.
-HOW = " ".join(
-    [
-        f"--integrator {config['integrator']} --step {config['step']}",
-        f"--sample-interval {config['sample_interval']}",
-        *(f"--material {quote(f'{name}={value}')}" for name, value in config["material"].items()),
-    ]
-)
-#: Integrators and laws of friction that are compiled before any job needs them.
-COMPILED = {setup.integrator for setup in SETUPS.values()}
-if config["accuracy"]:
-    COMPILED |= set(INTEGRATORS)
-LAWS = {str(getattr(setup.material.law, "file", setup.material.law)) for setup in SETUPS.values()}
-#: Cuts of measured surfaces, by the name of the mask.
-MASKS = [ensemble.scene.mask for ensemble in ENSEMBLE.values() if ensemble.scene.mask]
-CUTS = {mask.name: mask.cut for mask in MASKS if mask.cut}
-CUTS_MADE = [f"{RESULTS}/surfaces/{name}.npy" for name in CUTS]
-#: Scenes whose fields are stored, and the files of all preludes.
-WITH_FIELDS = [name for name in ENSEMBLE if ENSEMBLE[name].snapshot_times]
-PRELUDES = [f"{RESULTS}/preludes/{name}.npz" for name in ENSEMBLE]
+
+def runs(wildcards):
+    """Number of runs of a job; a prelude counts as one."""
+    return int(wildcards.last) - int(wildcards.first) + 1 if hasattr(wildcards, "last") else 1
+
+
+def memory(wildcards, attempt):
+    """MB to request, more in each attempt."""
+    return attempt * PLANNED.memory(wildcards.scene, runs(wildcards))
+
+
+def minutes(wildcards, attempt):
+    """Minutes to request, more in each attempt."""
+    return attempt * PLANNED.minutes(wildcards.scene, runs(wildcards))
+
+
+def scene(wildcards):
+    """The scene of a job and how it is simulated, as options of its command."""
+    return f"{PLANNED.ensembles[wildcards.scene].scene.arguments} {PLANNED.how}"
 
 
 rule compile:
     """Compile the integrators and the laws of friction."""
     input:
-        [law for law in LAWS if law.endswith(".py")],
+        [law for law in PLANNED.laws if law.endswith(".py")],
     output:
         touch(f"{RESULTS}/compiled"),
     log:
         f"{RESULTS}/logs/compile.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/compile.tsv"
-    resources:
-        mem_mb=600,
-        runtime=5,
     params:
         code=code("compile"),
         integrators=" ".join(f"--integrator {name}" for name in sorted(COMPILED)),
-        laws=" ".join(f"--law {quote(name)}" for name in sorted(LAWS)),
-    message:
-        "Compiling the solver"
+        laws=" ".join(f"--law {quote(name)}" for name in PLANNED.laws),
     shell:
-        "springblock --code {params.code} compile {params.integrators} {params.laws} > {log:q} 2>&1"
+        "springblock compile {params.integrators} {params.laws} > {log:q} 2>&1"
 
 
-if CUTS:
+rule mask:
+    """Cut a contact mask from a measured surface."""
+    input:
+        lambda wildcards: str(PLANNED.cuts[wildcards.mask].topography),
+    output:
+        f"{RESULTS}/surfaces/{{mask}}.npy",
+    log:
+        f"{RESULTS}/logs/surfaces/{{mask}}.log",
+    params:
+        code=code("mask"),
+        cut=lambda wildcards: PLANNED.cuts[wildcards.mask].arguments,
+    shell:
+        "springblock mask {input:q} {params.cut} --output {output:q} > {log:q} 2>&1"
 
-    rule mask:
-        """Cut contact masks from measured surfaces."""
-        input:
-            topography=lambda wildcards: str(CUTS[wildcards.mask].topography),
-        output:
-            f"{RESULTS}/surfaces/{{mask}}.npy",
-        log:
-            f"{RESULTS}/logs/surfaces/{{mask}}.log",
-        benchmark:
-            f"{RESULTS}/benchmarks/surfaces/{{mask}}.tsv"
-        wildcard_constraints:
-            mask="|".join(map(re.escape, CUTS)),
-        resources:
-            mem_mb=800,
-            runtime=5,
-        params:
-            code=code("mask"),
-            cut=lambda wildcards: CUTS[wildcards.mask].arguments,
-        message:
-            "Cutting a measured surface: {wildcards.mask}"
-        shell:
-            "springblock --code {params.code} mask {input.topography:q} {params.cut} --output {output:q} "
-            "> {log:q} 2>&1"
+
+rule masks:
+    """Cut all contact masks."""
+    input:
+        expand(rules.mask.output, mask=PLANNED.cuts),
+    localrule: True
 
 
 # Preludes are not temp(): made again for more seeds, they would make finished batches run again.
 rule prelude:
-    """Load each scene up to its first detachment."""
+    """Load a scene up to its first detachment."""
     input:
         rules.compile.output,
-        own_files,
+        lambda wildcards: PLANNED.files(wildcards.scene),
     output:
         f"{RESULTS}/preludes/{{scene}}.npz",
     log:
-        f"{RESULTS}/logs/{{scene}}/prelude.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/{{scene}}/prelude.tsv"
+        f"{RESULTS}/logs/preludes/{{scene}}.log",
     resources:
         mem_mb=memory,
         runtime=minutes,
     params:
-        code=code("simulate"),
         scene=scene,
-        how=HOW,
-        law=law,
-    message:
-        "Loading {wildcards.scene} up to its first detachment"
     shell:
-        "springblock --code {params.code} prelude {params.scene} {params.how} --output {output:q} "
-        "> {log:q} 2>&1"
+        "springblock prelude {params.scene} --output {output:q} > {log:q} 2>&1"
+
+
+rule preludes:
+    """Load all scenes up to their first detachment."""
+    input:
+        expand(rules.prelude.output, scene=PLANNED.ensembles),
+    localrule: True
 
 
 rule simulate_batch:
-    """Simulate realisations, a batch in each job."""
+    """Simulate realisations of a scene, from the first seed to the last."""
     input:
-        own_files,
+        lambda wildcards: PLANNED.files(wildcards.scene),
         prelude=rules.prelude.output,
     output:
-        f"{RESULTS}/realisations/{{scene}}/batch-{{batch}}.parquet",
+        f"{RESULTS}/realisations/{{scene}}/{{first}}-{{last}}.parquet",
     log:
-        f"{RESULTS}/logs/{{scene}}/batch-{{batch}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/{{scene}}/batch-{{batch}}.tsv"
+        f"{RESULTS}/logs/realisations/{{scene}}/{{first}}-{{last}}.log",
     wildcard_constraints:
-        batch=r"\d+",
+        first=r"\d+",
+        last=r"\d+",
     resources:
         mem_mb=memory,
         runtime=minutes,
     params:
-        code=code("simulate"),
         scene=scene,
-        how=HOW,
-        law=law,
-        duration=duration,
-        times=snapshots,
-        first=lambda wildcards: seeds(wildcards)[0],
-        last=lambda wildcards: seeds(wildcards)[-1],
-    message:
-        "Simulating {wildcards.scene}, seeds {params.first} to {params.last}"
+        times=lambda wildcards: PLANNED.times(wildcards.scene),
     shell:
-        "springblock --code {params.code} simulate {params.scene} {params.how} {params.duration} "
-        "--prelude {input.prelude:q} --first-seed {params.first} --last-seed {params.last} "
-        "{params.times} --output {output:q} > {log:q} 2>&1"
+        "springblock simulate {params.scene} {params.times} --prelude {input.prelude:q} "
+        "--first-seed {wildcards.first} --last-seed {wildcards.last} --output {output:q} > {log:q} 2>&1"
 
 
 rule simulate:
     """Simulate all realisations."""
     input:
-        batches(ENSEMBLE.values()),
+        PLANNED.batches(PLANNED.names),
     localrule: True
-    message:
-        "All realisations are simulated"
 
 
-if WITH_FIELDS:
-
-    rule fields_of_scene:
-        """Store fields of one run of each scene with snapshot_times."""
-        input:
-            own_files,
-            prelude=rules.prelude.output,
-        output:
-            fields=f"{RESULTS}/fields/{{scene}}.nc",
-            run=temp(f"{RESULTS}/fields/{{scene}}.parquet"),
-        log:
-            f"{RESULTS}/logs/{{scene}}/fields.log",
-        benchmark:
-            f"{RESULTS}/benchmarks/{{scene}}/fields.tsv"
-        resources:
-            mem_mb=memory,
-            runtime=minutes,
-        params:
-            code=code("simulate"),
-            scene=scene,
-            how=HOW,
-            law=law,
-            duration=duration,
-            times=snapshots,
-            seed=lambda wildcards: ENSEMBLE[wildcards.scene].seeds[0],
-        message:
-            "Storing fields of {wildcards.scene}, seed {params.seed}"
-        shell:
-            "springblock --code {params.code} simulate {params.scene} {params.how} {params.duration} "
-            "--prelude {input.prelude:q} --first-seed {params.seed} {params.times} "
-            "--fields {output.fields:q} --output {output.run:q} > {log:q} 2>&1"
+rule fields_of_scene:
+    """Store fields of the first run of a scene at its snapshot_times."""
+    input:
+        lambda wildcards: PLANNED.files(wildcards.scene),
+        prelude=rules.prelude.output,
+    output:
+        fields=f"{RESULTS}/fields/{{scene}}.nc",
+        run=temp(f"{RESULTS}/fields/{{scene}}.parquet"),
+    log:
+        f"{RESULTS}/logs/fields/{{scene}}.log",
+    resources:
+        mem_mb=memory,
+        runtime=minutes,
+    params:
+        scene=scene,
+        times=lambda wildcards: PLANNED.times(wildcards.scene),
+        seed=lambda wildcards: PLANNED.ensembles[wildcards.scene].seeds[0],
+    shell:
+        "springblock simulate {params.scene} {params.times} --prelude {input.prelude:q} "
+        "--first-seed {params.seed} --fields {output.fields:q} --output {output.run:q} > {log:q} 2>&1"
 
 
 rule fields:
     """Store all fields."""
     input:
-        [f"{RESULTS}/fields/{name}.nc" for name in WITH_FIELDS],
+        [
+            f"{RESULTS}/fields/{name}.nc"
+            for name, ensemble in PLANNED.ensembles.items()
+            if ensemble.snapshot_times
+        ],
     localrule: True
-    message:
-        "All fields are written"
 
 
 rule aggregate:
     """Collect realisations in one table."""
     input:
-        batches(ENSEMBLE.values()),
+        rules.simulate.input,
     output:
         f"{RESULTS}/tables/realisations.parquet",
     log:
         f"{RESULTS}/logs/aggregate.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/aggregate.tsv"
-    resources:
-        mem_mb=600,
-        runtime=5,
     params:
         code=code("simulate"),
-        configuration=CONFIGURATION,
-        realisations=sum(len(ensemble.seeds) for ensemble in ENSEMBLE.values()),
-    message:
-        "Collecting realisations in one table"
     shell:
-        "springblock --code {params.code} aggregate {input:q} --configuration {params.configuration} "
-        "--realisations {params.realisations} --output {output:q} > {log:q} 2>&1"
+        "springblock aggregate {input:q} --output {output:q} > {log:q} 2>&1"
 
 
 rule means:
@@ -218,27 +175,28 @@ rule means:
         f"{RESULTS}/tables/means.csv",
     log:
         f"{RESULTS}/logs/means.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/means.tsv"
-    resources:
-        mem_mb=600,
-        runtime=5,
     params:
         code=code("analyse"),
-    message:
-        "Writing means of ensembles with their intervals"
     shell:
-        "springblock --code {params.code} table {input:q} --output {output:q} > {log:q} 2>&1"
+        "springblock table {input:q} --output {output:q} > {log:q} 2>&1"
 
 
-rule repair:
-    """Set aside unusable files."""
+rule correlations:
+    """Correlate detachment times along the sides of pillars."""
+    input:
+        PLANNED.batches(PLANNED.with_sides),
+    output:
+        correlation=f"{RESULTS}/tables/correlation.parquet",
+        length=f"{RESULTS}/tables/correlation_length.parquet",
     log:
-        f"{RESULTS}/logs/repair.log",
-    localrule: True
+        f"{RESULTS}/logs/correlations.log",
+    resources:
+        mem_mb=2000,
     params:
-        results=RESULTS,
-    message:
-        "Setting aside unusable files"
+        code=code("analyse"),
     shell:
-        "springblock repair {params.results:q} 2>&1 | tee {log:q}"
+        "springblock correlation {input:q} --output-correlation {output.correlation:q} "
+        "--output-length {output.length:q} > {log:q} 2>&1"
+
+
+CORRELATIONS = rules.correlations.output if PLANNED.with_sides else []

@@ -21,7 +21,7 @@ from springblock.model.material import Material
 from springblock.model.numbers import Array
 from springblock.model.pattern import Pattern
 from springblock.model.surface import Surface
-from springblock.provenance import configuration_digest, digest_of
+from springblock.provenance import digest_of_data, digest_of
 
 FILE = Path(__file__).with_name("solutions.parquet")
 SCHEMA = pa.schema(
@@ -96,7 +96,7 @@ def digest() -> str:
     # without those of other laws, which are zero
     constants = {name: value for name, value in Material().items() if value}
     constants["sample_interval"] = SAMPLE_INTERVAL
-    return configuration_digest({"code": code, "constants": constants, "surfaces": surfaces})
+    return digest_of_data({"code": code, "constants": constants, "surfaces": surfaces})
 
 
 def stored() -> list[Row]:

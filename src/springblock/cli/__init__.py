@@ -32,10 +32,7 @@ COMMANDS = {
     "info": "springblock.cli.tables:info",
     "table": "springblock.cli.tables:table",
     "compare": "springblock.cli.tables:compare",
-    "verify": "springblock.cli.results:verify",
-    "repair": "springblock.cli.results:repair",
     "dictionary": "springblock.cli.tables:dictionary",
-    "archive": "springblock.cli.results:archive_study",
 }
 
 
@@ -121,6 +118,5 @@ class _LazyGroup(StrictGroup):
 
 @click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="springblock")
-@click.option("--code", hidden=True, help="Digest of the code, computed by the workflow.")
-def main(code: str | None) -> None:
+def main() -> None:
     """Spring-block model of the onset of sliding on patterned surfaces."""

@@ -10,9 +10,7 @@ import click
 
 from springblock.cli import StrictGroup
 from springblock.cli.options import INPUT, PICTURE, load_as, scene_options, with_options
-from springblock.io.parquet import read, refuse_mixture
 from springblock.io.records import Record, read_records
-from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH
 from springblock.plotting import drawing
 from springblock.plotting.declaration import Declaration
 from springblock.plotting.figures import FIGURES
@@ -50,21 +48,19 @@ def _tables(declared: Declaration, tables: Paths) -> list[Any]:
     return [load_as(name, table).to_pandas() for name, table in named]
 
 
-def _correlations(declared: Declaration, correlation: Path, lengths: Paths) -> list[Any]:
-    tables = read([correlation], CORRELATION), read(lengths, CORRELATION_LENGTH)
-    refuse_mixture(zip((correlation, lengths[0]), tables, strict=True))
-    return [table.to_pandas() for table in tables]
+def _correlations(declared: Declaration, tables: Paths, n_p: int) -> list[Any]:
+    return [*_tables(declared, tables), n_p]
 
 
-_one = partial(click.argument, type=INPUT)
-_many = partial(_one, nargs=-1, required=True)
+_many = partial(click.argument, type=INPUT, nargs=-1, required=True)
+_SIZE = click.option("--n-p", type=int, required=True, help="Size of the pillars of c(r), blocks.")
 #: Arguments of a figure's command, and the function that reads them, by what it draws.
 _DATA: dict[str, tuple[list[Callable[..., Any]], Callable[..., list[Any]]]] = {
     "nothing": ([], lambda declared: []),
     "pattern": ([scene_options], lambda declared, scene: [scene.pattern]),
     "tables": ([_many("tables")], _tables),
     "realisations": ([_many("batches")], _realisations),
-    "correlations": ([_one("correlation"), _many("lengths")], _correlations),
+    "correlations": ([_many("tables"), _SIZE], _correlations),
 }
 _OUTPUTS = click.option(
     "--output", "outputs", type=PICTURE, multiple=True, required=True, help="PDF, PNG or SVG file."

@@ -6,12 +6,13 @@ from pkgutil import resolve_name
 import click
 
 from springblock.accuracy.conventions import COMPARISONS, SCENES
-from springblock.cli.options import INPUT, Output, check_type, code_version, load_as
+from springblock.cli.options import INPUT, Output, check_type, load_as
 from springblock.continuum import PARTS
 from springblock.files import write_text
 from springblock.io.parquet import load, origin_of, read, rows_to_table, write
 from springblock.io.records import read_records
 from springblock.mechanism.surfaces import TABLES
+from springblock.provenance import made_by, of_study
 
 MEASURED = ["stability", "reference"]
 MEASURED += [f"{kind}-{scene}" for kind in (*COMPARISONS, "production") for scene in SCENES]
@@ -42,7 +43,6 @@ _ENSEMBLES = "Of the ensembles of `production-SCENE`."
 @click.command("make", epilog=f"Names: {', '.join(INPUTS)}.")
 @click.argument("name", type=click.Choice(list(INPUTS)), metavar="NAME")
 @click.argument("inputs", type=INPUT, nargs=-1)
-@click.option("--configuration", help="Digest of the configuration.")
 @click.option("--seeds", type=click.IntRange(2), default=10, show_default=True, help=_ENSEMBLES)
 @click.option("--finest-step", type=float, default=1e-8, show_default=True, help=_ENSEMBLES)
 @click.option(
@@ -51,7 +51,6 @@ _ENSEMBLES = "Of the ensembles of `production-SCENE`."
 def make(
     name: str,
     inputs: tuple[Path, ...],
-    configuration: str | None,
     seeds: int,
     finest_step: float,
     output: Path,
@@ -85,9 +84,9 @@ def make(
     if name in MEASURED:
         _measure(name, seeds, finest_step, output)
     elif name == "collect":
-        _collect(inputs, configuration, output)
+        _collect(inputs, output)
     elif name == "sensitivities":
-        _sensitivities(inputs, configuration, output)
+        _sensitivities(inputs, output)
     else:
         write_text(output, _page(name, inputs))
 
@@ -115,30 +114,24 @@ def _measure(name: str, seeds: int, finest_step: float, output: Path) -> None:
         step, schema, rows = "continuum", cases.CELLS, list(cases.measure(scene))
     else:
         rows = list(work_precision.ROWS[kind](scene))
-    metadata["code_version"] = code_version(step)
-    write(rows_to_table(rows, schema), output, metadata)
+    write(rows_to_table(rows, schema), output, made_by(step) | metadata)
     if name == "reference":
         solutions.refuse_changed(rows, solutions.stored())
 
 
-def _collect(tables: tuple[Path, ...], configuration: str | None, output: Path) -> None:
+def _collect(tables: tuple[Path, ...], output: Path) -> None:
     """Join tables of equal columns, made by the same code."""
     first = load(tables[0])
-    metadata = {"code_version": origin_of(first)["code_version"]}
-    if configuration is not None:
-        metadata["configuration_digest"] = configuration
-    write(read(tables, first.schema.remove_metadata()), output, metadata)
+    origin = {"code_version": origin_of(first)["code_version"]}
+    write(read(tables, first.schema.remove_metadata()), output, origin)
 
 
-def _sensitivities(batches: tuple[Path, ...], configuration: str | None, output: Path) -> None:
+def _sensitivities(batches: tuple[Path, ...], output: Path) -> None:
     """Write what friction and load peaks depend on."""
     from springblock.mechanism.sensitivities import SENSITIVITIES, sensitivities
 
     table = rows_to_table(list(sensitivities(read_records(batches))), SENSITIVITIES)
-    metadata = {"code_version": code_version("mechanism")}
-    if configuration is not None:
-        metadata["configuration_digest"] = configuration
-    write(table, output, metadata)
+    write(table, output, of_study("mechanism"))
 
 
 def _page(name: str, files: tuple[Path, ...]) -> str:

@@ -3,13 +3,11 @@
 from collections.abc import Callable, Sequence
 from dataclasses import fields
 from functools import partial, wraps
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import click
 
-from springblock import provenance
 from springblock.files import check_output
 from springblock.model.blockmap import BlockMap
 from springblock.model.direction import normalised
@@ -168,19 +166,11 @@ def print_columns(lines: Sequence[Sequence[str]]) -> None:
         click.echo("  ".join(padded).rstrip())
 
 
-def code_version(step: str) -> str:
-    """Return the version of the code of a step, with the digest given as `springblock --code`.
-
-    The workflow computes it once for all jobs; without the option it is computed here.
-    """
-    context = click.get_current_context(silent=True)
-    given = context.find_root().params.get("code") if context else None
-    return f"{version('springblock')}+{given}" if given else provenance.code_version(step)
-
-
 def load_as(name: str, file: Path) -> Any:
-    """Read a table that must have the columns of its name."""
-    from springblock.io.parquet import load
+    """Read a table that must have the columns of its name, and be of the study of this job."""
+    from springblock.io.parquet import load, refuse_other_study
     from springblock.report.dictionary import kinds  # loads numba
 
-    return load(file, kinds()[name][1].names)
+    table = load(file, kinds()[name][1].names)
+    refuse_other_study(file, table)
+    return table

@@ -1,26 +1,26 @@
 """springblock aggregate and correlation: tables of realisations and of their correlations."""
 
+from itertools import chain, groupby
+from operator import attrgetter
 from pathlib import Path
 
 import click
 
 from springblock.accuracy.conventions import suspects
 from springblock.analysis.correlations import correlations
-from springblock.cli.options import INPUT, Output, code_version
-from springblock.io.parquet import load, origin_of, read, rows_to_table, write
+from springblock.cli.options import INPUT, Output
+from springblock.io.parquet import read, rows_to_table, write
 from springblock.io.records import read_records
 from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH, SUMMARY
 from springblock.model.scene import COLUMNS
+from springblock.provenance import of_study
 
 
 @click.command("aggregate")
 @click.argument("batches", type=INPUT, nargs=-1, required=True)
-@click.option("--configuration", required=True, help="Digest of the study's configuration.")
 @click.option("--realisations", type=int, help="Expected number of realisations.")
 @click.option("--output", type=Output(".parquet"), required=True, help="Parquet file.")
-def aggregate(
-    batches: tuple[Path, ...], configuration: str, realisations: int | None, output: Path
-) -> None:
+def aggregate(batches: tuple[Path, ...], realisations: int | None, output: Path) -> None:
     """Collect BATCHES in one table, one row per realisation."""
     table = read(batches, SUMMARY)
     if realisations not in (None, table.num_rows):
@@ -29,8 +29,7 @@ def aggregate(
     for row in suspects(table.to_pylist(), COLUMNS):
         which = ", ".join(f"{key} = {row[key]}" for key in [*COLUMNS, "seed"])
         click.echo(f"warning: energy residual {row['energy_error']:.1e} at {which}")
-    metadata = {"code_version": code_version("simulate"), "configuration_digest": configuration}
-    write(table, output, metadata)
+    write(table, output, of_study("simulate"))
 
 
 @click.command("correlation")
@@ -44,10 +43,10 @@ def aggregate(
 def correlation(batches: tuple[Path, ...], output_correlation: Path, output_length: Path) -> None:
     """Correlate detachment times along the sides of pillars.
 
-    BATCHES must hold one scene.
+    The BATCHES of each folder must hold one scene.
     """
-    curves, lengths = correlations(read_records(batches))
-    digest = origin_of(load(batches[0], []))["configuration_digest"]
-    metadata = {"code_version": code_version("analyse"), "configuration_digest": digest}
-    write(rows_to_table(curves, CORRELATION), output_correlation, metadata)
-    write(rows_to_table(lengths, CORRELATION_LENGTH), output_length, metadata)
+    folders = groupby(batches, attrgetter("parent"))
+    found = [correlations(read_records(files)) for _, files in folders]
+    curves, lengths = (list(chain.from_iterable(rows)) for rows in zip(*found, strict=True))
+    write(rows_to_table(curves, CORRELATION), output_correlation, of_study("analyse"))
+    write(rows_to_table(lengths, CORRELATION_LENGTH), output_length, of_study("analyse"))

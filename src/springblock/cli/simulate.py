@@ -16,7 +16,6 @@ from tqdm.contrib.logging import logging_redirect_tqdm
 from springblock.cli.options import (
     INPUT,
     Output,
-    code_version,
     defaulted,
     given,
     name_value_pairs,
@@ -33,7 +32,7 @@ from springblock.model.defaults import STEP
 from springblock.model.material import LAWS, Material
 from springblock.model.scene import Scene
 from springblock.model.surface import Surface
-from springblock.provenance import same_code
+from springblock.provenance import made_by, same_code
 from springblock.simulation.prelude import Prelude, compute_prelude
 from springblock.simulation.scenes import columns_of, prelude_of, realise
 from springblock.simulation.setup import Setup
@@ -102,7 +101,7 @@ def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
 
     All seeds of the scene share it.
     """
-    replace(prelude_of(scene, setup, cores), code_version=code_version("simulate")).save(output)
+    replace(prelude_of(scene, setup, cores), **made_by("simulate")).save(output)
 
 
 @click.command("simulate")
@@ -169,7 +168,7 @@ def simulate_batch(
         )
     _check_fields(field_file, snapshot_times, seeds)
     own, rows = identity(scene, setup, duration, snapshot_times), list[Row]()
-    made_by = metadata(own, code_version("simulate"))
+    metadata(own)  # refuses code that has changed before it runs for long
     asked: dict[str, Any] = {"duration": duration, "snapshot_times": snapshot_times}
     how = {"prelude": prelude and _prelude(prelude), "cores": cores, "progress": single, **asked}
     if minutes is not None:
@@ -180,18 +179,19 @@ def simulate_batch(
         for seed in bar:
             run = realise(scene, setup, seed, **how)
             rows.append(own | columns_of(run, scene, seed))
+    origin = metadata(own)
     if field_file is not None:
-        source = {"source": f"springblock {made_by['code_version']}", "seed": str(first_seed)}
-        about = source | {"scene": str(scene), "identity": made_by["configuration"]}
+        source = {"source": f"springblock {origin['code_version']}", "seed": str(first_seed)}
+        about = source | {"scene": str(scene), "identity": origin["configuration"]}
         write_fields(run.fields, field_file, **about, **setup.constants)
-    write(batch_table(rows), output, made_by)
+    write(batch_table(rows), output, origin)
     click.echo(_in_words(rows))
 
 
 def _prelude(file: Path) -> Prelude:
     """Read a prelude, which must have been written by the same code."""
     begun = Prelude.read(file)
-    if not same_code(begun.code_version, code_version("simulate")):
+    if not same_code(begun.code_version, made_by("simulate")["code_version"]):
         raise ValueError(f"{file} was made by other code, {begun.code_version}; {MENDING}")
     return begun
 

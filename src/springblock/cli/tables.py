@@ -8,16 +8,16 @@ import click
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from springblock.analysis.comparison import differences as row_differences
 from springblock.analysis.ensembles import OBSERVABLES, changes, ensembles, telling
 from springblock.analysis.means import changes_from_first, differences, in_words, means
 from springblock.analysis.statistics import Interval
 from springblock.cli.options import INPUT, Output, defaulted, print_columns
 from springblock.files import whole_file, write_text
-from springblock.io.identity import RECORD, read_record, refuse_foreign
+from springblock.io.identity import refuse_misplaced
 from springblock.io.parquet import load, origin_of, refuse_mixed_code
 from springblock.io.rows import Row, limits
 from springblock.io.schemas import SUMMARY
-from springblock.provenance import configuration_digest
 from springblock.report.dictionary import columns, contents
 
 _PATH = click.Path(exists=True, path_type=Path)
@@ -76,12 +76,18 @@ def table(
 @_OF
 @_OUTPUT
 def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None) -> None:
-    """Compare the means of two sets of realisations.
+    """Compare two tables, or the realisations of two folders.
 
-    FIRST and SECOND are files or folders. For each ensemble in both: the difference of means with
-    its 95 % interval, paired where seeds and friction coefficients are the same. `springblock
-    verify` compares to the bit.
+    Says whether two tables are equal to the bit, CPU times apart, and otherwise in what they
+    differ. For each ensemble of realisations in both: the difference of means with its 95 %
+    interval, paired where seeds and friction coefficients are the same.
     """
+    if first.is_file() and second.is_file():
+        tables = [load(file) for file in (first, second)]
+        found = row_differences(*tables)
+        click.echo("\n".join(found) or f"the same {tables[0].num_rows} rows, to the bit")
+        if not found or not {*SUMMARY.names} <= {*tables[0].column_names}:
+            return
     if first != second and (first in second.parents or second in first.parents):
         raise ValueError(f"{first} and {second} share their realisations; give two apart")
     one, other = (ensembles(_rows([path])) for path in (first, second))
@@ -109,17 +115,16 @@ def _rows(paths: Sequence[Path]) -> list[Row]:
     files = [file for path in paths for file in ([path] if path.is_file() else _files(path))]
     tables = [(file, load(file, SUMMARY.names)) for file in dict.fromkeys(files)]
     for file, table in tables:
-        refuse_foreign(file, table)
+        refuse_misplaced(file, table)
     refuse_mixed_code(tables)
     return [row for _, table in tables for row in table.to_pylist()]
 
 
 def _files(folder: Path) -> list[Path]:
-    """Return the tables of realisations in a folder: that of a study, of a sweep, or all."""
-    if (folder / RECORD).exists():
-        return _of_study(folder)
-    if (table := folder / "realisations.parquet").exists():
-        return [table]
+    """Return the tables of realisations in a folder: that of a study or of a sweep, or all."""
+    for table in (folder / "tables/realisations.parquet", folder / "realisations.parquet"):
+        if table.exists():
+            return [table]
     every = [file for file in sorted(folder.rglob("*.parquet")) if not file.name.startswith(".")]
     held = [file for file in every if {*SUMMARY.names} <= {*_names(file)}]
     if not held:
@@ -134,24 +139,6 @@ def _names(file: Path) -> list[str]:
     except pa.ArrowInvalid:
         raise ValueError(f"{file} is empty or not a table (Parquet); remove it") from None
     return names
-
-
-def _of_study(results: Path) -> list[Path]:
-    """Return the table of realisations of a study, or the batches that it has so far."""
-    table, record = results / "tables/realisations.parquet", read_record(results)
-    latest = configuration_digest(record["made"][-1]["configuration"])
-    if table.exists() and origin_of(load(table, [])).get("configuration_digest") == latest:
-        return [table]
-    batches = [
-        results / "realisations" / scene / f"batch-{i}.parquet"
-        for scene, each in record["ensembles"].items()
-        for i in each["batches"]
-    ]
-    there = [file for file in batches if file.exists()]
-    if not there:
-        raise ValueError(f"{results}: no realisations of its last configuration found")
-    click.echo(f"{results} is unfinished: {len(there)} of {len(batches)} batches", err=True)
-    return there
 
 
 def _report(rows: Sequence[Row], output: Path | None) -> None:

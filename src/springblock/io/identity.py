@@ -1,12 +1,12 @@
-"""Identity of realisations: what, besides the seed and the code, determines them.
+"""Identity of realisations: all that determines their numbers, besides the seed.
 
-Each batch stores the identity of its runs, and the record of a study (`study.record`) that of the
-runs which it needs. Wherever files are joined, these are compared.
+A digest of it ends the name of the folder of realisations, as in
+realisations/pillars-6-6-x-3fa9c1e2/0-19.parquet, and stands in the file: what is computed with other
+constants or other code is another file.
 """
 
 import json
 from collections.abc import Mapping, Sequence
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +16,8 @@ from springblock.files import MENDING
 from springblock.io.schemas import ASKED, BATCH, SNAPSHOTS
 from springblock.model.material import law_units
 from springblock.model.scene import Scene
-from springblock.provenance import configuration_digest, same_code
+from springblock.provenance import digest_of_data, made_by
 from springblock.simulation.setup import Setup
-
-RECORD = "study.json"  #: file of a folder of results, see `study.record`
 
 
 def identity(
@@ -37,65 +35,27 @@ def identity(
     return {**scene.row, **setup.constants, **times, "snapshot_times": list(snapshot_times)}
 
 
-def metadata(identity: Mapping[str, Any], code_version: str) -> dict[str, str]:
-    """Return the metadata of a batch: identity of its runs, and code."""
-    return {
-        "code_version": code_version,
-        "configuration": json.dumps(identity, sort_keys=True),
-        "configuration_digest": configuration_digest(identity),
-    }
+def digest_with(identity: Mapping[str, Any], code: str) -> str:
+    """Return the digest of an identity and of the code of its runs; 8 hexadecimal digits."""
+    return digest_of_data([identity, code])[:8]
 
 
-def results_of(file: Path) -> Path | None:
-    """Return the folder of results, with the record of a study, that holds a file."""
-    return next((each for each in file.absolute().parents if (each / RECORD).is_file()), None)
+def metadata(identity: Mapping[str, Any]) -> dict[str, str]:
+    """Return the metadata of a batch: identity of its runs, code, and the digest of both."""
+    origin = made_by("simulate")
+    code = origin["code_version"].rpartition("+")[2]
+    own = {"configuration": json.dumps(identity, sort_keys=True)}
+    return origin | own | {"digest": digest_with(identity, code)}
 
 
-def read_record(results: Path) -> dict[str, Any]:
-    """Return the record of a folder of results; a damaged one is a ValueError."""
-    file = results / RECORD
-    return _read(file, file.stat().st_mtime_ns)
-
-
-@lru_cache(maxsize=4)
-def _read(file: Path, changed: int) -> dict[str, Any]:
-    """Read a record, once for each time at which it was changed; older ones name no files."""
-    try:
-        record: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
-        _ = record["identity"], record["made"][-1]["configuration"]["realisations_per_job"]
-        _ = record["made"][-1]["code"]["simulate"], record.get("ensembles", {}).items()
-    except (AttributeError, LookupError, TypeError, ValueError):
+def refuse_misplaced(file: Path, table: pa.Table) -> None:
+    """Refuse a batch of a study whose folder names another identity, or whose name other seeds."""
+    folder, (first, _, last) = file.absolute().parent, file.stem.partition("-")
+    if folder.parent.name != "realisations":
+        return
+    seeds = table["seed"].to_pylist()
+    held = (table.schema.metadata or {}).get(b"digest", b"").decode(), str(seeds[0]), str(seeds[-1])
+    if held != (folder.name.rpartition("-")[2], first, last):
         raise ValueError(
-            f"{file} is damaged; restore it from a copy, or choose another folder with the key "
-            "results"
-        ) from None
-    return {"ensembles": {}, "files": [], "spare": [], **record}
-
-
-def refuse_foreign(file: Path, table: pa.Table) -> None:
-    """Refuse realisations in the place of those that the study of their folder needs.
-
-    Files outside of a study, or of scenes that it does not have, are not compared.
-    """
-    results = results_of(file)
-    if results is None or not file.absolute().is_relative_to(results / "realisations"):
-        return
-    record = read_record(results)
-    place = file.absolute().relative_to(results / "realisations")
-    needed = record["ensembles"].get(place.parent.as_posix())
-    seeds = (needed or {"batches": {}})["batches"].get(place.stem.removeprefix("batch-"))
-    if needed is None or seeds is None:
-        return
-    origin = {key.decode(): value.decode() for key, value in (table.schema.metadata or {}).items()}
-    if not same_code(origin.get("code_version", ""), record["made"][-1]["code"]["simulate"]):
-        made_by = origin.get("code_version", "")
-        raise ValueError(f"{file} was made by different code, {made_by}; {MENDING}")
-    found, wanted = json.loads(origin["configuration"]), needed["identity"]
-    for name in {**wanted, **found}:
-        if found.get(name) != wanted.get(name):
-            raise ValueError(
-                f"{name} is {found.get(name)!r} in {file}, but {wanted.get(name)!r} in the study; "
-                f"{MENDING}"
-            )
-    if table["seed"].to_pylist() != list(range(seeds[0], seeds[1] + 1)):
-        raise ValueError(f"{file} must hold the seeds {seeds[0]} to {seeds[1]}; {MENDING}")
+            f"{file} holds seeds {seeds[0]} to {seeds[-1]} of {held[0]}, not those of its name; {MENDING}"
+        )

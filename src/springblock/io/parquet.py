@@ -9,11 +9,12 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from springblock.files import BLANK, MENDING, read_sealed, write_sealed
-from springblock.io.identity import refuse_foreign
+from springblock.files import MENDING, whole_file
+from springblock.io.identity import refuse_misplaced
 from springblock.io.schemas import ASKED, SCENE, SETUP
 from springblock.model.material import expanded, law_units
 from springblock.model.scene import Scene
+from springblock.provenance import study
 
 _NONE = pa.schema([])
 
@@ -22,17 +23,16 @@ def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
     """Write a table of at least one row, with its `metadata`, whole or not at all."""
     if not table.num_rows:
         raise ValueError(f"{path}: the table has no rows; nothing was written")
-    described = table.replace_schema_metadata({**metadata, "checksum": BLANK.decode()})
+    described = table.replace_schema_metadata(dict(metadata))
     # numbers of curves and fields rarely repeat, but their leading bytes do
     split = [
         f"{field.name}.list.element"
         for field in table.schema
         if pa.types.is_list(field.type) and pa.types.is_floating(field.type.value_type)
     ]
-    content = pa.BufferOutputStream()
     how = {"compression": "zstd", "use_dictionary": not split, "use_byte_stream_split": split}
-    pq.write_table(described, content, **how)
-    write_sealed(path, content.getvalue().to_pybytes())
+    with whole_file(path) as partial:
+        pq.write_table(described, partial, write_page_checksum=True, **how)
 
 
 def rows_to_table(rows: Sequence[Mapping[str, Any]], schema: pa.Schema) -> pa.Table:
@@ -79,18 +79,19 @@ def load(
 
     A file that is damaged, not a table, or lacks a column is a ValueError.
     """
-    content = read_sealed(path)
     try:
-        file = pq.ParquetFile(pa.BufferReader(content))
-    except pa.ArrowInvalid:
-        raise ValueError(f"{path} is not a table (Parquet); {MENDING}") from None
-    present = file.schema_arrow.names
-    missing = [name for name in columns or () if name not in present]
-    if missing:
-        raise ValueError(f"{path} lacks the column {missing[0]!r}; it holds {present}")
-    if columns is not None:
-        columns = [*columns, *(name for name in optional if name in present)]
-    return file.read(columns, use_threads=False)  # Arrow's threads may abort a process on exit
+        file = pq.ParquetFile(path, page_checksum_verification=True)
+        present = file.schema_arrow.names
+        missing = [name for name in columns or () if name not in present]
+        if not missing:
+            if columns is not None:
+                columns = [*columns, *(name for name in optional if name in present)]
+            return file.read(columns, use_threads=False)  # its threads may abort a process on exit
+    except (pa.ArrowException, OSError) as error:
+        if isinstance(error, FileNotFoundError):
+            raise
+        raise ValueError(f"{path} is damaged, or not a table (Parquet); {MENDING}") from None
+    raise ValueError(f"{path} lacks the column {missing[0]!r}; it holds {present}")
 
 
 def origin_of(table: pa.Table) -> dict[str, str]:
@@ -98,16 +99,23 @@ def origin_of(table: pa.Table) -> dict[str, str]:
     return {key.decode(): value.decode() for key, value in (table.schema.metadata or {}).items()}
 
 
+def refuse_other_study(file: Path, table: pa.Table) -> None:
+    """Refuse a table of another study than that which this job belongs to, if any."""
+    held, wanted = origin_of(table).get("study"), study()
+    if held and wanted and held != wanted:
+        raise ValueError(f"{file} is of another configuration; {MENDING}")
+
+
 def read(paths: Iterable[Path], schema: pa.Schema, optional: pa.Schema = _NONE) -> pa.Table:
     """Read the columns of `schema` from several files of one study, concatenated.
 
     Those of `optional` are read where a file has them, and null elsewhere. Files of different
-    constants, times or code, with the same realisation, or in the place of others that their study
-    needs, are a ValueError.
+    constants, times or code, with the same realisation, or under the name of others, are a
+    ValueError.
     """
     tables = [(path, load(path, schema.names, optional.names)) for path in paths]
     for path, table in tables:
-        refuse_foreign(path, table)
+        refuse_misplaced(path, table)
     refuse_mixture(tables)
     refuse_mixed_code(tables)
     _refuse_repetition(tables)

@@ -27,6 +27,7 @@ EDGES = ("free", "periodic")
 CONSTANTS = (*dict(Material().items()), "integrator", "step")
 #: Constants that are not numbers.
 TEXTS = ("integrator", *(each.name for each in fields(Material) if "choices" in each.metadata))
+_LONGEST = 200  #: bytes in the name of a folder; file systems take 255
 _SIDE = 6  #: least number of blocks of a side along which a correlation is measured
 
 Varied = tuple[tuple[str, Any], ...]  #: names and values of constants, in the order of `CONSTANTS`
@@ -207,11 +208,11 @@ class Scene:
 
     @property
     def folder(self) -> str:
-        """Folder of its realisations.
-
-        With "-" in place of "=", from which readers of partitioned tables would add columns.
-        """
-        return "/".join(f"{key}-{value}" for key, value in self.named.items())
+        """Name for the folder of its realisations, as pillars-6-6-x; others may have the same."""
+        kind = ("flat", "pillars" if self.n_p else "grooves", "grooves", "hierarchy")[self.level]
+        parts = self.mask or kind, *self.names.values(), self.direction
+        varied = (part for pair in self.varied for part in pair)
+        return "-".join(map(str, (*parts, *varied))).encode()[:_LONGEST].decode(errors="ignore")
 
     def __str__(self) -> str:
         """Return its name in captions and titles."""

@@ -39,7 +39,7 @@ class Declaration:
     - tables: those of the whole study; one that it does not make is left out;
     - realisations: of scenes, by the values of `keys`. Of several scenes with equal values the
       first is drawn. Without keys there is one scene, and the function takes its realisations;
-    - correlations: of the scene that has the configuration's lengths, and l_c for each n_p.
+    - correlations: the tables of correlations, and the n_p that the configuration gives.
     """
 
     name: str  #: of its file and of its command
@@ -93,12 +93,6 @@ class Declaration:
     def needs(self, groups: Groups, lengths: Lengths) -> list[Need]:
         """Return the tables that are drawn, in the order in which the command takes them."""
         every = chain.from_iterable(groups.get(group, []) for group in self.groups + self.also)
-        if self.draws == "correlations":
-            scenes = [scene for scene in every if scene.sides]
-            shown = first_of_each((), having(lengths, scenes))
-            curves = [Need("correlation", scene) for scene in shown]
-            sizes = first_of_each(("n_p",), scenes)
-            return curves + [Need("correlation_length", scene) for scene in sizes]
         if self.draws == "realisations":
             drawn = first_of_each(self.keys, having(lengths, every))
             return [Need("realisations", scene, self.batches) for scene in drawn]
@@ -106,6 +100,8 @@ class Declaration:
 
     def options(self, n_blocks: int, lengths: Lengths) -> str:
         """Return further options of the command."""
+        if self.draws == "correlations":
+            return f"--n-p {lengths['n_p']}"
         if self.draws != "pattern":
             return ""
         return Scene(max(n_blocks, lengths["n_p"] + lengths["n_s"]), **lengths).arguments

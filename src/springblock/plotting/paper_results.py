@@ -178,15 +178,14 @@ def _draw_flat(ax: Axes, sample: Array) -> None:
     ax.annotate("flat", (0.45, mean), (0.0, -2.0), ax.get_yaxis_transform(), **below)
 
 
-def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame") -> Figure:
-    """Draw a) c_x(r) and c_y(r) of one scene, b) with their fits, and c) their lengths over n_p.
+def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame", n_p: int) -> Figure:
+    """Draw a) c_x(r) and c_y(r) for one n_p, b) with their fits, and c) their lengths over n_p.
 
-    `correlation` and `lengths` are tables of the schemas CORRELATION, of one scene, and
-    CORRELATION_LENGTH, of one scene for each n_p, that of `correlation` among them.
+    `correlation` and `lengths` are tables of the schemas CORRELATION and CORRELATION_LENGTH. Drawn
+    are square pillars with equal gaps on the surface that comes first, with the study's constants.
     """
-    if lengths.duplicated(["n_p", "side"]).any():
-        raise ValueError("several scenes have the same n_p, which the figure cannot tell apart")
-    n_p = correlation["n_p"].iloc[0]
+    correlation, lengths = _equal_gaps(correlation), _equal_gaps(lengths)
+    correlation = correlation[correlation["n_p"] == n_p]
     shown = lengths[lengths["n_p"] == n_p].set_index("side")
     if shown.empty:
         raise ValueError(f"there is no correlation length for n_p = {n_p}")
@@ -210,6 +209,13 @@ def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame") -> Figure:
     _draw_lengths(sizes, lengths[lengths["side"] == "x"])
     style.legend_above(picture, log, sizes, ncols=6)
     return picture
+
+
+def _equal_gaps(table: "pd.DataFrame") -> "pd.DataFrame":
+    """Return the rows of pillars with n_s = n_p, without varied constants, on the first surface."""
+    found = table[(table["level"] == 1) & (table["n_s"] == table["n_p"]) & (table["varied"] == "")]
+    surface = ["n_blocks", "n_rows", "edges", "direction"]
+    return found[(found[surface] == found[surface].iloc[0]).all(axis=1)]
 
 
 def _draw_fits(ax: Axes, side: str, curve: "pd.DataFrame", length: "pd.Series") -> None:

@@ -20,6 +20,7 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from springblock.files import whole_file
+from springblock.provenance import study
 
 Look = dict[str, Any]  #: of a line, of markers or of text
 
@@ -99,7 +100,7 @@ JOURNAL: Look = {
 journal = style.context(JOURNAL, after_reset=True)
 
 #: Without date and program version the same figure gives the same bytes.
-_METADATA: dict[str, dict[str, None]] = {
+_METADATA: dict[str, dict[str, str | None]] = {
     ".pdf": {"CreationDate": None, "Creator": None, "Producer": None},
     ".png": {"Software": None},
     ".svg": {"Date": None, "Creator": None},
@@ -191,10 +192,12 @@ def settle(picture: Figure) -> None:
 def save(picture: Figure, path: Path, caption: str | None = None) -> None:
     """Write a figure as PDF, PNG (600 dpi) or SVG, by the suffix of `path`, whole or not at all.
 
-    Its bytes depend on the picture and the caption alone; the caption is kept in the metadata.
+    Its bytes depend on the picture, the caption and the study alone; the latter two are kept in the
+    metadata.
     """
-    described = {"Subject" if path.suffix == ".pdf" else "Description": caption}
-    metadata = _METADATA[path.suffix] | (described if caption else {})
+    keys = ("Subject", "Keywords") if path.suffix == ".pdf" else ("Description", "Source")
+    described = {key: text for key, text in zip(keys, (caption, study()), strict=True) if text}
+    metadata = _METADATA[path.suffix] | described
     settle(picture)
     with whole_file(path) as partial:
         picture.savefig(partial, format=path.suffix[1:], metadata=metadata)

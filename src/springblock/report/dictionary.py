@@ -19,7 +19,7 @@ from springblock.io.schemas import (
 
 #: Columns that identify a scene and its constants.
 _COMMON = pa.schema([*SCENE, *SETUP])
-_BATCHES = "realisations/SCENE/batch-NUMBER"  #: file of the batches
+_BATCHES = "realisations/SCENE-DIGEST/SEEDS"  #: file of the batches
 
 
 @cache

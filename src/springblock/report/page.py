@@ -144,5 +144,5 @@ def _parts(figures: Figures, pages: Mapping[str, markup.Page]) -> list[dict[str,
 def origin(data: Mapping[str, pa.Table]) -> dict[str, str]:
     """Return what the table of realisations was made with."""
     known = origin_of(data["realisations"]) if "realisations" in data else {}
-    names = {"code version": "code_version", "configuration": "configuration_digest"}
+    names = {"code version": "code_version", "study": "study"}
     return {name: known[key] for name, key in names.items() if key in known}

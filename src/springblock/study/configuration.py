@@ -25,6 +25,8 @@ from springblock.study.written import NUMBER
 
 Configuration = Mapping[str, Any]
 
+#: Keys of the numerical method.
+TIMES = ("integrator", "step", "sample_interval")
 #: Words of YAML and their values.
 _YAML_WORDS = {"true": True, "false": False, "null": None}
 #: Groups of the paper's figures, with the level of their scenes.
@@ -49,17 +51,16 @@ class Planned:
     #: s, of displacements stored for all seeds, and of fields for the first
     snapshot_times: tuple[float, ...] = ()
 
-    def batches(self, size: int) -> dict[int, range]:
-        """Return the seeds of each batch, by number: batch i has those from i·size on.
+    def batches(self, size: int) -> list[range]:
+        """Return the seeds of each batch, which ends before a multiple of `size`.
 
-        Batches do not depend on the number of seeds, so that each seed of a growing study stays in
-        its batch.
+        So all but the last batch of a growing study remain as they are.
         """
         first, last = self.seeds[0], self.seeds[-1]
-        return {
-            i: range(max(first, i * size), min(last + 1, (i + 1) * size))
+        return [
+            range(max(first, i * size), min(last + 1, (i + 1) * size))
             for i in range(first // size, last // size + 1)
-        }
+        ]
 
     def joined(self, other: "Planned") -> "Planned":
         """Return the larger of two ensembles of the same scene, with the snapshots of both."""
@@ -263,7 +264,7 @@ def _refuse_other_name(mask: BlockMap | None, masks: dict[str, BlockMap]) -> Non
 
 def setup(configuration: Configuration) -> Setup:
     """Return the setup of scenes without varied constants."""
-    times = {key: configuration[key] for key in ("integrator", "step", "sample_interval")}
+    times = {key: configuration[key] for key in TIMES}
     with _named("material"):
         material = Material().vary(configuration["material"])
     return Setup(material, **times)

@@ -1,0 +1,199 @@
+"""What the configuration of a study asks for: ensembles, their files, options of jobs, and figures."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
+from itertools import chain
+from pathlib import Path
+from shlex import quote
+from typing import Any
+
+from springblock.io.identity import digest_with, identity
+from springblock.model.blockmap import Cut
+from springblock.model.scene import Scene
+from springblock.plotting import figures
+from springblock.plotting.caption import file_name
+from springblock.plotting.declaration import Declaration, having
+from springblock.plotting.lines import axes
+from springblock.provenance import digest, digest_of_data
+from springblock.simulation.setup import Setup
+from springblock.study import configuration as read
+from springblock.study import cost
+from springblock.study.configuration import Planned
+
+#: Figures that show the surfaces which are filmed, by group.
+_FILMED = {"flat": "figure_3", "pillars": "figure_5", "grooves": "figure_8"}
+
+
+class Plan:
+    """Ensembles, files and figures of a checked configuration.
+
+    The folder of an ensemble ends in the digest of all that decides its numbers, code included.
+    """
+
+    def __init__(self, configuration: Mapping[str, Any]) -> None:
+        self.configuration = configuration
+        self.results = str(Path(configuration["results"]))  # without a slash at the end
+        self.own = read.is_own(configuration)
+        self.setup = read.setup(configuration)
+        self.groups = read.ensembles(configuration)
+        every = dict.fromkeys(chain.from_iterable(self.groups.values()))
+        self.setups = {each: self.setup.vary(dict(each.scene.varied)) for each in every}
+        self.names = {each: self._name(each, setup) for each, setup in self.setups.items()}
+        self.ensembles = {name: each for each, name in self.names.items()}
+
+    def _name(self, ensemble: Planned, setup: Setup) -> str:
+        scene = ensemble.scene
+        runs = identity(scene, setup, ensemble.duration, ensemble.snapshot_times)
+        return f"{scene.folder}-{digest_with(runs, digest('simulate'))}"
+
+    def members(self, groups: Iterable[str]) -> list[Planned]:
+        """Return the ensembles of those groups that the study has, each once."""
+        return list(dict.fromkeys(chain.from_iterable(self.groups.get(g, []) for g in groups)))
+
+    def batches(self, members: Iterable[Planned]) -> list[str]:
+        """Return the files of the realisations of ensembles."""
+        return [
+            f"{self.results}/realisations/{self.names[each]}/{seeds[0]}-{seeds[-1]}.parquet"
+            for each in members
+            for seeds in each.batches(self.configuration["realisations_per_job"])
+        ]
+
+    @cached_property
+    def digest(self) -> str:
+        """Return the digest of the study: of the names of the files of all its realisations."""
+        return digest_of_data(self.batches(self.names))
+
+    @property
+    def with_sides(self) -> list[Planned]:
+        """Return ensembles of several seeds on pillars that have sides, for correlations."""
+        found = self.members(group for group in self.groups if group != "sensitivities")
+        return [each for each in found if each.scene.sides and len(each.seeds) > 1 and not self.own]
+
+    @property
+    def cuts(self) -> dict[str, Cut]:
+        """Return the cuts of measured surfaces by the name of the mask."""
+        masks = (each.scene.mask for each in self.names)
+        return {mask.name: mask.cut for mask in masks if mask and mask.cut}
+
+    @property
+    def laws(self) -> list[str]:
+        """Return the laws of friction, by name or file."""
+        laws = (setup.material.law for setup in self.setups.values())
+        return sorted({str(getattr(law, "file", law)) for law in laws})
+
+    @property
+    def integrators(self) -> list[str]:
+        """Return the integrators of all scenes."""
+        return sorted({setup.integrator for setup in self.setups.values()})
+
+    @property
+    def how(self) -> str:
+        """Return numerical method and material of all scenes, as options of a command."""
+        given = self.configuration
+        times = (f"--{key.replace('_', '-')} {given[key]}" for key in read.TIMES)
+        constants = (f"--material {quote(f'{k}={v}')}" for k, v in given["material"].items())
+        return " ".join([*times, *constants])
+
+    def files(self, name: str) -> list[str]:
+        """Return the files of the mask, the coefficients and the law of an ensemble."""
+        of_study = {"law": getattr(self.setup.material.law, "file", None)}
+        files = of_study | self.ensembles[name].scene.files
+        return [str(file) for file in files.values() if file]
+
+    def times(self, name: str) -> str:
+        """Return duration and snapshots as options; without duration a run ends after its peak."""
+        each = self.ensembles[name]
+        duration = [] if each.duration is None else [f"--duration {each.duration}"]
+        return " ".join([*duration, *(f"--snapshot {time}" for time in each.snapshot_times)])
+
+    def memory(self, name: str, runs: int) -> int:
+        """Return MB to request for a job; a snapshot needs as much as a realisation."""
+        each = self.ensembles[name]
+        return cost.memory(each.scene, runs * (1 + len(each.snapshot_times)))
+
+    def minutes(self, name: str, runs: int) -> int:
+        """Return minutes to request for a job."""
+        each = self.ensembles[name]
+        return cost.minutes(each.scene, self.setups[each], each.duration, runs)
+
+    @cached_property
+    def drawn(self) -> dict[str, list[Planned]]:
+        """Return the ensembles from which figures are drawn, by group."""
+        return read.for_figures(self.configuration, self.groups)
+
+    @cached_property
+    def scenes(self) -> dict[str, list[Scene]]:
+        """Return their scenes, by group."""
+        return {group: [each.scene for each in members] for group, members in self.drawn.items()}
+
+    @cached_property
+    def figures(self) -> dict[str, Declaration]:
+        """Return the figures whose groups of scenes and tables the study has, by name."""
+        chapters = {
+            "Figures": not self.own,
+            "Accuracy": self.configuration["accuracy"],
+            "Mechanism": self.configuration["mechanism"],
+            "Continuum": self.configuration["mechanism"] == "all",
+        }
+        return {
+            name: figure
+            for name, figure in figures.FIGURES.items()
+            if figure.is_part_of(self.scenes) and chapters.get(figure.category, True)
+        }
+
+    @cached_property
+    def sweeps(self) -> dict[str, Mapping[str, Any]]:
+        """Return sweeps whose groups the study has; an own study has one for each that varies."""
+        over = axes(each.scene for each in self.names) if self.own else []
+        usual = {axis: {"groups": list(self.groups), "over": axis} for axis in over}
+        return {
+            f"sweep_{name}": sweep
+            for name, sweep in self.configuration["figures"].get("sweeps", usual).items()
+            if all(self.groups.get(group) for group in sweep["groups"])
+        }
+
+    @cached_property
+    def films(self) -> dict[str, Planned]:
+        """Return the ensembles that are filmed: on surfaces that figures show, or one's own."""
+        if self.own:  # each surface, in the first of its directions
+            return {file_name(each.scene): each for each in reversed(self.drawn["surfaces"])}
+        by_scene = {each.scene: each for each in self.names}
+        return {
+            group: by_scene[scene]
+            for group, figure in _FILMED.items()
+            for scene in having(self._lengths(figure), self.scenes.get(group, []))[:1]
+        }
+
+    def _lengths(self, figure: str) -> Mapping[str, Any]:
+        lengths: Mapping[str, Any] = self.configuration["figures"].get(figure, {})
+        return lengths
+
+    def needed(self, figure: str) -> Iterator[str]:
+        """Yield the files of a figure; refuse lengths that no scene has."""
+        if figure in self.sweeps:
+            yield from self.batches(self.members(self.sweeps[figure]["groups"]))
+            return
+        lengths, declared = self._lengths(figure), self.figures[figure]
+        shown = lengths.items() if declared.groups else ()
+        scenes = chain.from_iterable(self.scenes[group] for group in declared.groups)
+        if shown and not any(shown <= scene.lengths.items() for scene in scenes):
+            wanted = ", ".join(f"{name} = {length}" for name, length in shown)
+            raise ValueError(
+                f"figures.{figure}: no scene of {' or '.join(declared.groups)} has {wanted}"
+            )
+        by_scene = {each.scene: each for each in self.names}
+        for table, scene, number in declared.needs(self.scenes, lengths):
+            if scene is None:
+                yield f"{self.results}/tables/{table}.parquet"
+            else:
+                yield from self.batches([by_scene[scene]])[:number]
+
+    def command(self, figure: str) -> str:
+        """Return the command that draws a figure, without its files."""
+        if figure in self.sweeps:
+            of = [f"--of {observable}" for observable in self.sweeps[figure].get("of", [])]
+            return " ".join(["plot", "--over", self.sweeps[figure]["over"], *of])
+        lengths, declared = self._lengths(figure), self.figures[figure]
+        caption = declared.caption_in(self.drawn, lengths, self.setup.material)
+        options = declared.options(self.configuration["n_blocks"], lengths)
+        return f"figure {figure} {options} --caption {quote(caption)}"
