@@ -5,9 +5,9 @@ import re
 import numpy as np
 import pytest
 import yaml
+from springblock.study.audit import all_faults
 
 from springblock.io.identity import read_record
-from springblock.study.audit import all_faults
 from studies import ROOT, TINY, Study
 
 SNAKEFILE = """\

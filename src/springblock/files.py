@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 #: Advice for a file of a study that cannot be used.
 MENDING = "delete it, and `snakemake` makes it again"
 
+
 def check_output(path: Path) -> None:
     """Refuse to write to a path that exists and is not a regular file.
 

@@ -48,7 +48,9 @@ PLAN = "SPRINGBLOCK_PLAN"
 
 def planned(study: str) -> str:
     """Return a plan for the jobs of a study: its digest, and for each step those of its code."""
-    return json.dumps({"study": study, "code": {step: [digest(step), _sources(step)] for step in STEPS}})
+    return json.dumps(
+        {"study": study, "code": {step: [digest(step), _sources(step)] for step in STEPS}}
+    )
 
 
 def made_by(step: str) -> dict[str, str]:

@@ -1,5 +1,4 @@
 # The configuration, checked, and what it asks for.
-
 import os
 import re
 import sys
@@ -14,7 +13,6 @@ from springblock.cli import sentence
 from springblock.provenance import PLAN, digest, planned
 from springblock.study import configuration as study
 from springblock.study.plan import Plan
-from springblock.study.stale import set_back
 from springblock.study.written import LOADER, check_file
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
@@ -53,6 +51,7 @@ def code(step):
 os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()]))
 if workflow.is_main_process:
     os.environ[PLAN] = planned(PLANNED.digest)
+    PLANNED.set_back()
 
 
 wildcard_constraints:

@@ -76,8 +76,6 @@ rule report:
         report(f"{RESULTS}/report.html", category="Report"),
     log:
         f"{RESULTS}/logs/report.log",
-    resources:
-        mem_mb=1500,
     params:
         code=code("report"),
         own="--own" if PLANNED.own else "",
@@ -88,10 +86,3 @@ rule report:
     shell:
         "springblock report {input.shown:q} {input.glossary:q} {params.films} {params.own} "
         "--output {output:q} > {log:q} 2>&1"
-
-
-# Files of another configuration are made again, whatever Snakemake remembers of them.
-if workflow.is_main_process:
-    of_runs = [*rules.aggregate.output, *CORRELATIONS, *rules.claims_table.output, *SENSITIVE]
-    pictures = [file for file in (*rules.figures.input, *rules.films.input) if file[-3:] != "pdf"]
-    set_back([*of_runs, *pictures], PLANNED.digest)

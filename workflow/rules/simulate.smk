@@ -6,26 +6,6 @@ from springblock.solver.integrators import INTEGRATORS
 COMPILED = INTEGRATORS if config["accuracy"] else PLANNED.integrators
 
 
-def runs(wildcards):
-    """Number of runs of a job; a prelude counts as one."""
-    return int(wildcards.last) - int(wildcards.first) + 1 if hasattr(wildcards, "last") else 1
-
-
-def memory(wildcards, attempt):
-    """MB to request, more in each attempt."""
-    return attempt * PLANNED.memory(wildcards.scene, runs(wildcards))
-
-
-def minutes(wildcards, attempt):
-    """Minutes to request, more in each attempt."""
-    return attempt * PLANNED.minutes(wildcards.scene, runs(wildcards))
-
-
-def scene(wildcards):
-    """The scene of a job and how it is simulated, as options of its command."""
-    return f"{PLANNED.ensembles[wildcards.scene].scene.arguments} {PLANNED.how}"
-
-
 rule compile:
     """Compile the integrators and the laws of friction."""
     input:
@@ -75,10 +55,10 @@ rule prelude:
     log:
         f"{RESULTS}/logs/preludes/{{scene}}.log",
     resources:
-        mem_mb=memory,
-        runtime=minutes,
+        mem_mb=lambda wildcards, attempt: attempt * PLANNED.memory(wildcards),
+        runtime=lambda wildcards, attempt: attempt * PLANNED.minutes(wildcards),
     params:
-        scene=scene,
+        scene=lambda wildcards: PLANNED.options(wildcards.scene),
     shell:
         "springblock prelude {params.scene} --output {output:q} > {log:q} 2>&1"
 
@@ -103,10 +83,10 @@ rule simulate_batch:
         first=r"\d+",
         last=r"\d+",
     resources:
-        mem_mb=memory,
-        runtime=minutes,
+        mem_mb=lambda wildcards, attempt: attempt * PLANNED.memory(wildcards),
+        runtime=lambda wildcards, attempt: attempt * PLANNED.minutes(wildcards),
     params:
-        scene=scene,
+        scene=lambda wildcards: PLANNED.options(wildcards.scene),
         times=lambda wildcards: PLANNED.times(wildcards.scene),
     shell:
         "springblock simulate {params.scene} {params.times} --prelude {input.prelude:q} "
@@ -131,10 +111,10 @@ rule fields_of_scene:
     log:
         f"{RESULTS}/logs/fields/{{scene}}.log",
     resources:
-        mem_mb=memory,
-        runtime=minutes,
+        mem_mb=lambda wildcards, attempt: attempt * PLANNED.memory(wildcards),
+        runtime=lambda wildcards, attempt: attempt * PLANNED.minutes(wildcards),
     params:
-        scene=scene,
+        scene=lambda wildcards: PLANNED.options(wildcards.scene),
         times=lambda wildcards: PLANNED.times(wildcards.scene),
         seed=lambda wildcards: PLANNED.ensembles[wildcards.scene].seeds[0],
     shell:
@@ -145,11 +125,7 @@ rule fields_of_scene:
 rule fields:
     """Store all fields."""
     input:
-        [
-            f"{RESULTS}/fields/{name}.nc"
-            for name, ensemble in PLANNED.ensembles.items()
-            if ensemble.snapshot_times
-        ],
+        expand(rules.fields_of_scene.output.fields, scene=PLANNED.with_fields),
     localrule: True
 
 
@@ -181,22 +157,22 @@ rule means:
         "springblock table {input:q} --output {output:q} > {log:q} 2>&1"
 
 
-rule correlations:
-    """Correlate detachment times along the sides of pillars."""
-    input:
-        PLANNED.batches(PLANNED.with_sides),
-    output:
-        correlation=f"{RESULTS}/tables/correlation.parquet",
-        length=f"{RESULTS}/tables/correlation_length.parquet",
-    log:
-        f"{RESULTS}/logs/correlations.log",
-    resources:
-        mem_mb=2000,
-    params:
-        code=code("analyse"),
-    shell:
-        "springblock correlation {input:q} --output-correlation {output.correlation:q} "
-        "--output-length {output.length:q} > {log:q} 2>&1"
+if PLANNED.with_sides:
+
+    rule correlations:
+        """Correlate detachment times along the sides of pillars."""
+        input:
+            PLANNED.batches(PLANNED.with_sides),
+        output:
+            correlation=f"{RESULTS}/tables/correlation.parquet",
+            length=f"{RESULTS}/tables/correlation_length.parquet",
+        log:
+            f"{RESULTS}/logs/correlations.log",
+        params:
+            code=code("analyse"),
+        shell:
+            "springblock correlation {input:q} --output-correlation {output.correlation:q} "
+            "--output-length {output.length:q} > {log:q} 2>&1"
 
 
 CORRELATIONS = rules.correlations.output if PLANNED.with_sides else []

@@ -21,7 +21,7 @@ from springblock.model.material import Material
 from springblock.model.numbers import Array
 from springblock.model.pattern import Pattern
 from springblock.model.surface import Surface
-from springblock.provenance import digest_of_data, digest_of
+from springblock.provenance import digest_of, digest_of_data
 
 FILE = Path(__file__).with_name("solutions.parquet")
 SCHEMA = pa.schema(

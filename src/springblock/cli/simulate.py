@@ -101,7 +101,8 @@ def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
 
     All seeds of the scene share it.
     """
-    replace(prelude_of(scene, setup, cores), **made_by("simulate")).save(output)
+    version = made_by("simulate")["code_version"]
+    replace(prelude_of(scene, setup, cores), code_version=version).save(output)
 
 
 @click.command("simulate")

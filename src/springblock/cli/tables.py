@@ -84,9 +84,9 @@ def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None)
     """
     if first.is_file() and second.is_file():
         tables = [load(file) for file in (first, second)]
-        found = row_differences(*tables)
-        click.echo("\n".join(found) or f"the same {tables[0].num_rows} rows, to the bit")
-        if not found or not {*SUMMARY.names} <= {*tables[0].column_names}:
+        apart = row_differences(*tables)
+        click.echo("\n".join(apart) or f"the same {tables[0].num_rows} rows, to the bit")
+        if not apart or not {*SUMMARY.names} <= {*tables[0].column_names}:
             return
     if first != second and (first in second.parents or second in first.parents):
         raise ValueError(f"{first} and {second} share their realisations; give two apart")

@@ -7,7 +7,10 @@ from pathlib import Path
 from shlex import quote
 from typing import Any
 
+from springblock.accuracy.conventions import SCENES
+from springblock.continuum import PARTS as CELLS
 from springblock.io.identity import digest_with, identity
+from springblock.mechanism.surfaces import TABLES
 from springblock.model.blockmap import Cut
 from springblock.model.scene import Scene
 from springblock.plotting import figures
@@ -19,9 +22,13 @@ from springblock.simulation.setup import Setup
 from springblock.study import configuration as read
 from springblock.study import cost
 from springblock.study.configuration import Planned
+from springblock.study.stale import set_back
 
 #: Figures that show the surfaces which are filmed, by group.
 _FILMED = {"flat": "figure_3", "pillars": "figure_5", "grooves": "figure_8"}
+#: Groups whose realisations test the statements.
+_CLAIMED = ["flat", "pillars", "small_pillars", "grooves", "angles", "third_level", "loading"]
+_CLAIMED += ["scatter", "repetitions", "groove_lengths", "one_level", "square", "ungrooved"]
 
 
 class Plan:
@@ -70,6 +77,16 @@ class Plan:
         return [each for each in found if each.scene.sides and len(each.seeds) > 1 and not self.own]
 
     @property
+    def claimed(self) -> list[Planned]:
+        """Return the ensembles that test the paper's statements."""
+        return self.members(_CLAIMED)
+
+    @property
+    def with_fields(self) -> list[str]:
+        """Return the names of ensembles whose fields are stored."""
+        return [name for each, name in self.names.items() if each.snapshot_times]
+
+    @property
     def cuts(self) -> dict[str, Cut]:
         """Return the cuts of measured surfaces by the name of the mask."""
         masks = (each.scene.mask for each in self.names)
@@ -106,15 +123,59 @@ class Plan:
         duration = [] if each.duration is None else [f"--duration {each.duration}"]
         return " ".join([*duration, *(f"--snapshot {time}" for time in each.snapshot_times)])
 
-    def memory(self, name: str, runs: int) -> int:
-        """Return MB to request for a job; a snapshot needs as much as a realisation."""
-        each = self.ensembles[name]
-        return cost.memory(each.scene, runs * (1 + len(each.snapshot_times)))
+    def options(self, name: str) -> str:
+        """Return the options of a command that simulates an ensemble."""
+        return f"{self.ensembles[name].scene.arguments} {self.how}"
 
-    def minutes(self, name: str, runs: int) -> int:
-        """Return minutes to request for a job."""
-        each = self.ensembles[name]
-        return cost.minutes(each.scene, self.setups[each], each.duration, runs)
+    def memory(self, job: Any) -> int:
+        """Return MB to request for the wildcards of a job; a snapshot takes as much as a run."""
+        each = self.ensembles[job.scene]
+        return cost.memory(each.scene, _runs(job) * (1 + len(each.snapshot_times)))
+
+    def minutes(self, job: Any) -> int:
+        """Return minutes to request for the wildcards of a job."""
+        each = self.ensembles[job.scene]
+        return cost.minutes(each.scene, self.setups[each], each.duration, _runs(job))
+
+    @property
+    def measured(self) -> dict[str, list[str]]:
+        """Return the parts of each table that needs no realisations of the study."""
+        kinds = ("reference", "paired") if self.configuration["verification"] else ("reference",)
+        return {
+            "work_precision": [f"{kind}-{scene}" for kind in kinds for scene in SCENES],
+            "production": [f"production-{scene}" for scene in SCENES],
+            "stability": ["stability"],
+            **{table: [f"mechanism-{part}" for part in TABLES[table]] for table in TABLES},
+            "continuum": [f"continuum-{part}" for part in CELLS],
+        }
+
+    @property
+    def held(self) -> list[str]:
+        """Return those of these tables that belong to the study."""
+        errors = ["work_precision", "production", "stability"]
+        models = {"sizes": ["mechanism"], "all": [*TABLES, "continuum"]}
+        asked = self.configuration
+        return [*(errors if asked["accuracy"] else []), *models.get(asked["mechanism"], [])]
+
+    @property
+    def pages(self) -> dict[str, list[str]]:
+        """Return the tables from which each page of the study is written."""
+        every = {
+            "claims": ["claims"],
+            "accuracy": ["work_precision", "stability", "realisations", "production"],
+            "continuum": ["continuum"],
+            "mechanism": [*TABLES, "sensitivities"],
+        }
+        known = {*self.held, "realisations"} | (set() if self.own else {"claims"})
+        known |= {"sensitivities"} if self.groups.get("sensitivities") else set()
+        return {page: tables for page, tables in every.items() if {*tables} <= known}
+
+    def sampled(self, part: str) -> str:
+        """Return seeds and finest step of ensembles that measure errors, as options."""
+        kind, _, scene = part.partition("-")
+        given = self.configuration["production"]
+        told = f"--seeds {given.get(scene)} --finest-step {given['finest_step']}"
+        return told if kind == "production" else ""
 
     @cached_property
     def drawn(self) -> dict[str, list[Planned]]:
@@ -188,6 +249,15 @@ class Plan:
             else:
                 yield from self.batches([by_scene[scene]])[:number]
 
+    def set_back(self) -> None:
+        """Have Snakemake make again what is of another configuration, whatever it remembers."""
+        tables = ("realisations", "correlation", "correlation_length", "claims", "sensitivities")
+        files = [f"{self.results}/tables/{name}.parquet" for name in tables]
+        files += [f"{self.results}/figures/{name}.png" for name in (*self.figures, *self.sweeps)]
+        set_back(
+            [*files, *(f"{self.results}/films/{name}.gif" for name in self.films)], self.digest
+        )
+
     def command(self, figure: str) -> str:
         """Return the command that draws a figure, without its files."""
         if figure in self.sweeps:
@@ -197,3 +267,8 @@ class Plan:
         caption = declared.caption_in(self.drawn, lengths, self.setup.material)
         options = declared.options(self.configuration["n_blocks"], lengths)
         return f"figure {figure} {options} --caption {quote(caption)}"
+
+
+def _runs(job: Any) -> int:
+    """Return the number of runs of a job; a prelude counts as one."""
+    return int(job.last) - int(job.first) + 1 if hasattr(job, "last") else 1

@@ -1,0 +1,206 @@
+"""The promises of docs/reliability.md, each provoked in a small study."""
+
+import re
+import shutil
+import signal
+import subprocess
+import time
+
+import psutil
+import pyarrow.parquet as pq
+import pytest
+
+from springblock.provenance import PLAN, planned
+from studies import FEWER, Study
+
+TARGETS = ("simulate", "aggregate", "correlations", "figure_6")
+OTHER = {**FEWER, "material": {"slider_velocity": 5e-3, "gamma": 4e3}}
+
+
+@pytest.fixture(scope="session")
+def undisturbed(finished) -> Study:
+    """A finished study on one core, which no test changes."""
+    return finished("undisturbed", ("--cores", "1"), TARGETS, **FEWER)
+
+
+@pytest.fixture
+def study(undisturbed, tmp_path) -> Study:
+    """A finished study, to be disturbed."""
+    return undisturbed.copied(tmp_path / "study")
+
+
+@pytest.fixture(scope="session")
+def both(finished) -> Study:
+    """The same, run first with another damping, and then as it is."""
+    study = finished("both", ("--cores", "1"), TARGETS, **OTHER)
+    return study
+
+
+def batch(study, scene="flat-x"):
+    """The first batch of a scene."""
+    return min(study.results.glob(f"realisations/{scene}-*/*.parquet"))
+
+
+def pictures(study):
+    return {file.name: file.read_bytes() for file in study.results.glob("figures/*.png")}
+
+
+#: How Snakemake may be kept from seeing a change, before the study is run again.
+BLINDED = {
+    "not": lambda study: (),
+    "mtime": lambda study: ("--rerun-triggers", "mtime"),
+    "memory lost": lambda study: shutil.rmtree(study / ".snakemake") or (),
+    "touched": lambda study: study.run("--touch") and (),
+}
+
+
+@pytest.mark.parametrize("how", BLINDED)
+def test_constants_that_change_and_change_back_give_the_first_tables(
+    undisturbed, both, tmp_path, how
+):
+    """No simulation runs the second time; tables and pictures are those of its constants."""
+    study = both.copied(tmp_path / "study")
+    shutil.copytree(undisturbed.results, study.results, dirs_exist_ok=True)
+    study.run()  # tables and pictures with the other damping, which are the newest files now
+    assert study.numbers() == both.numbers() != undisturbed.numbers()
+    study.configure(material=FEWER.get("material", {"slider_velocity": 5e-3, "gamma": 5e3}))
+    options = BLINDED[how](study)
+    jobs = study.planned(*options)
+    assert {"aggregate", "correlations", "figure_6"} <= jobs.keys()
+    assert not {"prelude", "simulate_batch"} & jobs.keys()
+    study.run(*options)
+    assert study.numbers() == undisturbed.numbers()
+    assert pictures(study) == pictures(undisturbed)
+    assert study.planned() == {}
+
+
+def test_a_batch_is_read_only_under_its_own_name(study, springblock, tmp_path):
+    """Neither one of other constants, nor one of other seeds."""
+    first, last = sorted(batch(study).parent.glob("*.parquet"))
+    words = "aggregate", first, "--output", tmp_path / "a.parquet"
+    shutil.copy(last, first)
+    said = springblock(*words, refused=True)
+    assert re.search(r"flat.*0-1.parquet holds seeds 2 to 2 of \w+, not those of its name", said)
+    shutil.copy(batch(study, "pillars-6-6-x"), first)
+    assert "not those of its name" in springblock(*words, refused=True)
+
+
+def jobs(study):
+    """Processes that simulate in the folder of a study."""
+    here = str(study.folder.resolve())
+    found = psutil.process_iter(["cwd", "cmdline"])
+    words = {p: " ".join(p.info["cmdline"] or ()) for p in found if p.info["cwd"] == here}
+    return [p for p, line in words.items() if re.search(r"springblock simulate ", line)]
+
+
+def until(condition, seconds=300.0):
+    """Wait for something to happen."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "it never happened"
+        time.sleep(0.02)
+
+
+def test_the_same_command_resumes_after_a_job_and_after_the_whole_run_is_killed(study, undisturbed):
+    batch(study).unlink()
+    run = study.start()
+    until(lambda: jobs(study))
+    for job in jobs(study):
+        job.kill()
+    said, _ = run.communicate()
+    assert run.returncode != 0
+    assert "simulate_batch" in said
+    run = study.start()
+    until(lambda: jobs(study))
+    psutil.Process(run.pid).send_signal(signal.SIGKILL)
+    assert "--unlock" in study.run(refused=True)
+    subprocess.run(study.command("--unlock"), cwd=study, env=study.environment, check=True)
+    study.run()  # beside the job that has outlived its run, which writes the same file
+    run.communicate()
+    until(lambda: not jobs(study))
+    assert study.numbers() == undisturbed.numbers()
+
+
+@pytest.mark.parametrize(
+    ("pattern", "rule"),
+    {
+        "realisations/flat-*/2-2.parquet": "simulate_batch",
+        "tables/correlation_length.parquet": "correlations",
+        "figures/figure_6.pdf": "figure_6",
+    }.items(),
+)
+def test_a_missing_file_is_made_again(study, pattern, rule):
+    next(study.results.glob(pattern)).unlink()
+    assert rule in study.planned()
+
+
+def truncated(content):
+    return content[: len(content) // 2]
+
+
+def flipped(content):
+    place = len(content) // 3
+    return content[:place] + bytes([content[place] ^ 4]) + content[place + 1 :]
+
+
+@pytest.mark.parametrize("damage", [truncated, flipped, lambda content: b""])
+@pytest.mark.parametrize("pattern", ["realisations/flat-*/0-1.parquet", "preludes/flat-*.npz"])
+def test_a_damaged_file_is_refused_by_name(study, springblock, tmp_path, pattern, damage):
+    (file,) = study.results.glob(pattern)
+    file.write_bytes(damage(file.read_bytes()))
+    simulate = ("simulate", "--n-blocks", 12, "--material", "slider_velocity=5e-3", "--prelude")
+    words = simulate if file.suffix == ".npz" else ("aggregate",)
+    said = springblock(*words, file, "--output", tmp_path / "a.parquet", refused=True)
+    assert said.startswith(f"Error: {file} is ")
+    assert said.endswith("delete it, and `snakemake` makes it again")
+    assert not list(tmp_path.glob("a.*"))
+
+
+def test_code_that_changes_while_a_study_runs_is_noticed(springblock, tmp_path, monkeypatch):
+    """The job compares the bytes of its sources with those of the plan; nothing is written."""
+    plan = planned("0123")
+    words = "simulate", "--n-blocks", 4, "--output", tmp_path / "a.parquet"
+    monkeypatch.setenv(PLAN, plan)
+    springblock(*words)
+    (tmp_path / "a.parquet").unlink()
+    changed = re.sub(r'("simulate": \["\w+", ")\w', r"\1x", plan)
+    monkeypatch.setenv(PLAN, changed)
+    said = springblock(*words, refused=True)
+    assert said == "Error: the code changed while the study ran; run `snakemake` again"
+    assert not (tmp_path / "a.parquet").exists()
+
+
+def test_an_edit_of_the_solver_stops_a_running_study(study):
+    """What was planned with the former code is not written; then all is simulated with the new."""
+    study.edit("simulation/run.py")  # a comment, in a package of the study's own
+    assert study.planned() == {}
+    before = {*study.results.glob("realisations/*/*")}
+    study.configure(material={"slider_velocity": 5e-3, "gamma": 3e3})
+    run = study.start()
+    until(lambda: jobs(study))
+    study.edit("solver/springs.py", "0.5 * (nex", "0.4 * (nex")
+    said, _ = run.communicate()
+    assert run.returncode != 0
+    assert "the code changed while the study ran" in said
+    study.run()
+    made = {*study.results.glob("realisations/*/*")} - before
+    assert len(made) == 5
+    assert len({pq.read_schema(file).metadata[b"code_version"] for file in made}) == 1
+
+
+def test_a_growing_study_has_each_seed_once(study):
+    """It had three, in batches of two: the last batch alone is another file."""
+    study.configure(scenes=FEWER["scenes"] | {"flat": {"seeds": 5, "duration": 2e-5}})
+    assert study.planned()["simulate_batch"] == 2
+    study.run()
+    found = pq.read_table(study.results / "tables/realisations.parquet").to_pylist()
+    assert [row["seed"] for row in found if not row["level"]] == [0, 1, 2, 3, 4]
+
+
+def test_tables_of_another_configuration_are_refused_by_name(
+    study, springblock, tmp_path, monkeypatch
+):
+    table = study.results / "tables/realisations.parquet"
+    monkeypatch.setenv(PLAN, planned("0123"))
+    words = "make", "applicability", table, "--output", tmp_path / "a.md"
+    assert f"{table} is of another configuration" in springblock(*words, refused=True)
