@@ -45,12 +45,16 @@ def finished(tmp_path_factory) -> Callable[..., Study]:
     own = tmp_path_factory.getbasetemp()
     shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
 
-    def study(name: str, options: tuple[str, ...] = (), targets=(), **changes) -> Study:
+    def study(name: str, options: tuple[str, ...] = (), targets=(), then=None, **changes) -> Study:
         folder = shared / name
         with (shared / f"{name}.lock").open("w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             if not folder.exists():
-                Study.begun(folder, **changes).run(*options, targets=targets)
+                begun = Study.begun(folder, **changes)
+                begun.run(*options, targets=targets)
+                if then:  # other values of some keys
+                    begun.configure(**then)
+                    begun.run(*options, targets=targets)
         return Study(folder, options, targets)
 
     return study

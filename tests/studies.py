@@ -89,10 +89,13 @@ class Study:
     def __fspath__(self) -> str:
         return str(self.folder)
 
+    @property
+    def configuration(self) -> dict[str, Any]:
+        return yaml.safe_load((self / "tiny.yaml").read_text())
+
     def configure(self, **changes: Any) -> None:
         """Give keys of the configuration other values."""
-        present = yaml.safe_load((self / "tiny.yaml").read_text())
-        self.write("tiny.yaml", {**present, **changes})
+        self.write("tiny.yaml", {**self.configuration, **changes})
 
     def write(self, name: str, configuration: dict[str, Any]) -> str:
         """Write a configuration; returns its name."""

@@ -1,8 +1,8 @@
 """Identity of realisations: all that determines their numbers, besides the seed.
 
 A digest of it ends the name of the folder of realisations, as in
-realisations/pillars-6-6-x-3fa9c1e2/0-19.parquet, and stands in the file: what is computed with other
-constants or other code is another file.
+realisations/pillars-6-6-x-3fa9c1e2/0-19.parquet, and stands in the file: what is computed with
+other constants or other code is another file.
 """
 
 import json
@@ -57,5 +57,6 @@ def refuse_misplaced(file: Path, table: pa.Table) -> None:
     held = (table.schema.metadata or {}).get(b"digest", b"").decode(), str(seeds[0]), str(seeds[-1])
     if held != (folder.name.rpartition("-")[2], first, last):
         raise ValueError(
-            f"{file} holds seeds {seeds[0]} to {seeds[-1]} of {held[0]}, not those of its name; {MENDING}"
+            f"{file} holds seeds {seeds[0]} to {seeds[-1]} of {held[0]}, not those of its name; "
+            f"{MENDING}"
         )

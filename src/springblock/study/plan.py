@@ -1,4 +1,4 @@
-"""What the configuration of a study asks for: ensembles, their files, options of jobs, and figures."""
+"""What the configuration of a study asks for: ensembles, files, options of jobs, figures."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
@@ -22,7 +22,7 @@ from springblock.simulation.setup import Setup
 from springblock.study import configuration as read
 from springblock.study import cost
 from springblock.study.configuration import Planned
-from springblock.study.stale import set_back
+from springblock.study.stale import remove_others
 
 #: Figures that show the surfaces which are filmed, by group.
 _FILMED = {"flat": "figure_3", "pillars": "figure_5", "grooves": "figure_8"}
@@ -249,14 +249,13 @@ class Plan:
             else:
                 yield from self.batches([by_scene[scene]])[:number]
 
-    def set_back(self) -> None:
-        """Have Snakemake make again what is of another configuration, whatever it remembers."""
+    def remove_others(self, dryrun: bool) -> None:
+        """Remove tables and pictures of another configuration, which are then made again."""
         tables = ("realisations", "correlation", "correlation_length", "claims", "sensitivities")
         files = [f"{self.results}/tables/{name}.parquet" for name in tables]
         files += [f"{self.results}/figures/{name}.png" for name in (*self.figures, *self.sweeps)]
-        set_back(
-            [*files, *(f"{self.results}/films/{name}.gif" for name in self.films)], self.digest
-        )
+        files += [f"{self.results}/films/{name}.gif" for name in self.films]
+        remove_others(files, self.digest, dryrun)
 
     def command(self, figure: str) -> str:
         """Return the command that draws a figure, without its files."""

@@ -1,23 +1,27 @@
 """Tables and pictures of another configuration, which Snakemake shall make again."""
 
-import os
+import sys
 from collections.abc import Iterable
 from pathlib import Path
 
 import pyarrow as pa
 import pyarrow.parquet as pq
-from PIL import Image, UnidentifiedImageError
+from PIL import Image
 
 
-def set_back(files: Iterable[str], study: str) -> None:
-    """Set the time stamps of those files to 1970 that say they are of another study, or nothing.
+def remove_others(files: Iterable[str], study: str, dryrun: bool) -> None:
+    """Remove tables and pictures that are of another study than this, and say so.
 
-    Snakemake makes them again, since they are older than their inputs, whatever it remembers or is
-    told to ignore: lost metadata, `--touch` and `--rerun-triggers mtime` cannot hide them.
+    They are made again from realisations, whatever Snakemake remembers of them or is told to
+    ignore: lost metadata, `--touch` and `--rerun-triggers` cannot hide them. A dry run removes
+    nothing.
     """
-    for file in map(Path, files):
-        if file.exists() and _study_of(file) != study:
-            os.utime(file, (0, 0))
+    others = [file for file in map(Path, files) if file.exists() and _study_of(file) != study]
+    for file in [] if dryrun else others:
+        file.unlink()
+    if others:
+        told = f"{len(others)} tables and pictures are of another configuration: made again"
+        print(told, file=sys.stderr)
 
 
 def _study_of(file: Path) -> str | None:
@@ -29,5 +33,5 @@ def _study_of(file: Path) -> str | None:
         with Image.open(file) as picture:
             kept = picture.info.get("Source") or picture.info.get("comment") or b""
         return kept.decode() if isinstance(kept, bytes) else str(kept)
-    except (pa.ArrowException, OSError, UnidentifiedImageError):
+    except (pa.ArrowException, OSError):
         return None
