@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from springblock.files import MENDING
-from springblock.io.fields import read_fields
 from springblock.io.identity import RECORD, read_record, refuse_foreign
 from springblock.io.parquet import load, origin_of
 from springblock.model.blockmap import BlockMap
 from springblock.provenance import code_version, configuration_digest, same_code
+from springblock.simulation.fields import import_xarray
 from springblock.simulation.prelude import Prelude
 
 #: Folders in which a study writes, and the steps that make their files.
@@ -105,7 +105,8 @@ def _check(file: Path, name: Path, record: Mapping[str, Any]) -> None:
         version = prelude.code_version
         found = configuration_digest({"conditions": prelude.conditions})
     elif folder == "fields":
-        attributes = read_fields(file)[1]
+        with import_xarray().open_dataset(file) as data:
+            attributes = data.load().attrs
         version = str(attributes.get("source", ""))
         found = configuration_digest(json.loads(attributes.get("identity", "{}")))
     else:
