@@ -157,8 +157,8 @@ def test_every_file_of_numbers_is_checked(study):
     assert len({file.parent for file in files}) > 3
 
 
-def test_bad_fields_and_masks_are_found(tmp_path, monkeypatch):
-    """Fields of other runs or code, or cut short; a mask that is not that of its name."""
+def test_bad_fields_are_found(tmp_path, monkeypatch):
+    """Fields of other runs or code, or cut short."""
     monkeypatch.chdir(tmp_path)
     fields = simulate(uniform(2, 1.0, 0.6), duration=1e-6, snapshot_times=[1e-6]).fields
     names = ("current", "older", "short", "foreign")
@@ -170,18 +170,14 @@ def test_bad_fields_and_masks_are_found(tmp_path, monkeypatch):
         about = {"source": f"springblock {version}", "identity": identity}
         fields.to_xarray().assign_attrs(about).to_netcdf(file, engine="scipy")
     truncated(files["short"], tmp_path)
-    mask = tmp_path / "surfaces/islands-00000000.npy"
-    mask.parent.mkdir()
-    np.save(mask, np.arange(64).reshape(8, 8) % 3 > 0)
-    needed = [str(file.relative_to(tmp_path)) for file in (*files.values(), mask)]
+    needed = [str(file.relative_to(tmp_path)) for file in files.values()]
     ensembles = {name: {"identity": {"duration": 1e-6}} for name in names}
     contents = {"ensembles": ensembles, "files": needed, "spare": []}
     record.begin(tmp_path, {"realisations_per_job": 1}, contents)
     found = {fault.file: fault.reason for fault in faults(tmp_path)}
-    assert found.keys() == {files["older"], files["short"], files["foreign"], mask}
+    assert found.keys() == {files["older"], files["short"], files["foreign"]}
     assert "was made by different code, springblock 1.0.0+0123" in found[files["older"]]
     assert "was made with another configuration" in found[files["foreign"]]
-    assert "not that of its name" in found[mask]
 
 
 def test_a_batch_with_a_seed_missing_is_not_aggregated(study, springblock, tmp_path):
