@@ -123,7 +123,7 @@ DELETED = {
     "tables/correlation_length.parquet": {"correlations_table", "report"},
     "tables/claims.parquet": {"claims_table", "claims", "report"},
     "figures/figure_1.pdf": {"figure_1", "report"},
-    "films/flat.mp4": {"film_flat", "report"},
+    "films/flat.gif": {"film_flat", "report"},
     "claims.md": {"claims", "report"},
     "report.html": {"report"},
     "preludes/n_blocks-12/level-0/direction-x.npz": set(),

@@ -1,7 +1,7 @@
 # Films of the slip front, and the report: films, figures, pages and tables.
 
 #: Files of all films; the glossary beside this workflow.
-FILMED = [f"{RESULTS}/films/{surface}.mp4" for surface in FILMS]
+FILMED = [f"{RESULTS}/films/{surface}.gif" for surface in FILMS]
 GLOSSARY = workflow.current_basedir.join("../../docs/glossary.md").get_path_or_uri(True)
 GLOSSARY = os.path.relpath(GLOSSARY)
 
@@ -14,7 +14,7 @@ for surface, shown in FILMS.items():
         input:
             batches([shown])[:1],
         output:
-            f"{RESULTS}/films/{surface}.mp4",
+            f"{RESULTS}/films/{surface}.gif",
         log:
             f"{RESULTS}/logs/film_{surface}.log",
         benchmark:
