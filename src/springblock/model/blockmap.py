@@ -74,7 +74,9 @@ class Cut:
         try:
             from SurfaceTopography import open_topography
         except ImportError:
-            raise ValueError("it needs pip install 'springblock[topography]'") from None
+            raise ValueError(
+                "it needs SurfaceTopography: pip install 'springblock[topography]'"
+            ) from None
         with open_topography(self.topography) as reader:
             channels = {None: reader.default_channel} | {c.name: c for c in reader.channels}
             if self.channel not in channels:
