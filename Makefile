@@ -1,16 +1,19 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+TESTS := tests/environment.lock
 PEERS := benchmarks/peers/peers.lock
 SITE := docs/site.lock
 PARALLEL := --numprocesses auto --dist loadfile --no-loadscope-reorder
 INSTALL := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-user --no-compile --no-build-isolation
+# Bytecode is compiled on all cores; pip would use one. olefile2 is a module in Python 2.
+COMPILE := $(BIN)/python -m compileall -q -j 0 -x '/tests/|olefile2' $(VENV)/lib
 APT_INSTALL := DEBIAN_FRONTEND=noninteractive apt-get install --yes --quiet --no-install-recommends
 
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick full docs site test browser test-slurm test-versions coverage mutants bench bench-ratios setup lock clean
+.PHONY: all quick full docs site test browser test-slurm test-versions coverage mutants bench bench-ratios setup setup-tests lock clean
 
 # The paper's figures and their errors, in four to seven minutes on two cores.
 all: setup
@@ -48,7 +51,7 @@ site: setup
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet # MkDocs 1 is supported until May 2027
 
 # Style, types and tests.
-test: setup $(if $(CI),browser)
+test: setup-tests $(if $(CI),browser)
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/snakefmt --check Snakefile workflow
@@ -63,7 +66,7 @@ browser:
 
 # Installs and starts a Slurm of one node, and runs the quick study on it: as root on Debian, in a
 # quarter of an hour.
-test-slurm: setup
+test-slurm: setup-tests
 	apt-get --quiet update
 	$(APT_INSTALL) munge slurm-client slurmctld slurmd
 	$(BIN)/python -m tests.slurm
@@ -75,7 +78,7 @@ test-versions:
 	$(PYTHON) -m venv "$$dir/uv" && "$$dir/uv/bin/python" -m pip install --quiet --no-user uv && \
 	for versions in "lowest-direct --prerelease=disallow" highest "highest --prerelease=allow"; do \
 	    echo "Tests with --resolution=$$versions" && $(PYTHON) -m venv --clear "$$dir/venv" && \
-	    "$$dir/uv/bin/uv" pip install --quiet --no-config --python "$$dir/venv" --group dev \
+	    "$$dir/uv/bin/uv" pip install --quiet --no-config --python "$$dir/venv" --group build --group dev \
 	        --resolution=$$versions --editable ".[study,mp4]" && \
 	    PATH="$$dir/venv/bin:$$PATH" "$$dir/venv/bin/python" -m pytest --quiet $(PARALLEL) || exit; \
 	done
@@ -85,7 +88,7 @@ test-versions:
 INTERPRETED := test_springs or test_release or test_laws or (small and 7-3) or wherever_it_is \
     or ((each_step or whole_runs) and grooves) or (stress_stays and leapfrog) or burst_alone \
     or collapses or turns_negative
-coverage: setup
+coverage: setup-tests
 	$(BIN)/coverage erase
 	$(BIN)/coverage run -m pytest $(PARALLEL) $(addprefix tests/,model analysis simulation solver \
 	    cli claims/test_rule.py claims/test_samples.py validation/test_law_files.py)
@@ -98,7 +101,7 @@ coverage: setup
 	$(BIN)/coverage report
 
 # Puts errors into copies of the code, one into each, and prints which test catches it: an hour or more.
-mutants: setup
+mutants: setup-tests
 	$(BIN)/python tests/mutants.py
 
 # Speed of the solver, of a C loop and of LAMMPS, as one table, in two and a half minutes.
@@ -110,10 +113,12 @@ bench: setup
 bench-ratios: setup
 	$(BIN)/python -m benchmarks.ratios
 
+# The study's environment, and what tests need besides.
 setup: $(VENV)/installed
+setup-tests: $(VENV)/tests
 
-# Both stamps are written last, so that an interrupted setup is repeated. setuptools comes first because
-# one of the packages is built with it. Bytecode is compiled on all cores; pip would use one.
+# Stamps are written last, so that an interrupted setup is repeated. setuptools comes first because one
+# of the packages is built with it.
 $(VENV)/locked: environment.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
 	    { echo "Python 3.11 or newer is needed; name one with: make PYTHON=/path/to/python3" >&2; exit 1; }
@@ -121,11 +126,16 @@ $(VENV)/locked: environment.lock
 	$(PYTHON) -m venv $(VENV)
 	sed -n '/^setuptools==/,/[^\\]$$/p' $< | $(INSTALL) --require-hashes -r /dev/stdin
 	$(INSTALL) --require-hashes -r $<
-	$(BIN)/python -m compileall -q -j 0 -x olefile2 $(VENV)/lib # a module in Python 2
+	$(COMPILE)
 	touch $@
 
 $(VENV)/installed: $(VENV)/locked pyproject.toml
 	$(INSTALL) --no-deps --editable .
+	touch $@
+
+$(VENV)/tests: $(VENV)/installed $(TESTS)
+	$(INSTALL) --require-hashes -r $(TESTS)
+	$(COMPILE)
 	touch $@
 
 # Renews the lock files, for every platform and every Python from 3.11 on, and prints known
@@ -136,11 +146,14 @@ lock:
 	lock="$$dir/bin/uv pip compile --upgrade --universal --python-version 3.11 --generate-hashes \
 	    --fork-strategy fewest --no-config --no-emit-index-url --quiet" && \
 	$$lock --custom-compile-command "make lock" --output-file environment.lock \
-	    --group dev --extra study --extra slurm --extra mp4 --extra topography pyproject.toml && \
+	    --group build --extra study pyproject.toml && \
+	$$lock --custom-compile-command "make lock" --output-file $(TESTS) \
+	    --group build --group dev --extra study --extra slurm --extra mp4 --extra topography \
+	    --constraint environment.lock pyproject.toml && \
 	$$lock --custom-compile-command "make lock" --output-file $(PEERS) --group peers && \
 	$$lock --custom-compile-command "make lock" --output-file $(SITE) --group site \
-	    --constraint environment.lock && \
-	"$$dir/bin/pip-audit" --strict --disable-pip --require-hashes -r environment.lock -r $(PEERS) -r $(SITE)
+	    --constraint $(TESTS) && \
+	"$$dir/bin/pip-audit" --strict --disable-pip --require-hashes -r $(TESTS) -r $(PEERS) -r $(SITE)
 
 # Removes the environment and caches; results stay.
 clean:

@@ -3,9 +3,17 @@
 
 from pathlib import Path
 
+from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
 min_version("9.20")
+
+try:
+    import springblock
+except ModuleNotFoundError:
+    raise WorkflowError(
+        "The package springblock is missing: run `pip install -e .` first."
+    ) from None
 
 
 # `config` already holds the keys that the user gives, which override those of this file.

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from springblock.analysis.runs import Runs as Runs
     from springblock.analysis.runs import ensemble as ensemble
-    from springblock.io.fields import write_fields as write_fields
     from springblock.io.records import read as read
     from springblock.model.asperities import draw_friction as draw_friction
     from springblock.model.material import Material as Material
@@ -46,7 +45,6 @@ else:  # mypy would accept any name if it saw `__getattr__`
         "plot": "plotting.still",
         "read": "io.records",
         "simulate": "simulation.simulate",
-        "write_fields": "io.fields",
     }
 
     __all__ = list(_MODULES)

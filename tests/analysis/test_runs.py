@@ -50,7 +50,7 @@ def test_fields_and_runs_become_datasets_with_units(runs, monkeypatch):
     np.testing.assert_array_equal(stress[0].fillna(0.0), fields.stress[0, 0])
     assert float(run.to_xarray().force.max()) == run.force.max()
     monkeypatch.setitem(sys.modules, "xarray", None)
-    with pytest.raises(ModuleNotFoundError, match="to_xarray needs xarray: pip install xarray"):
+    with pytest.raises(ModuleNotFoundError, match="xarray is missing: pip install xarray"):
         run.to_xarray()
 
 

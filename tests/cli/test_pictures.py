@@ -36,6 +36,9 @@ def test_fields_are_mapped_alone(springblock, tmp_path):
     for words in ([fields], ["--seed", 0], ["--over", "n_p"], ["--of", "t_max"]):
         said = springblock("plot", fields, *words, "--output", tmp_path / "a.png", refused=True)
         assert said.endswith("run.nc holds fields of one run: plot it alone, without an option")
+    (tmp_path / "short.nc").write_bytes(fields.read_bytes()[:1000])
+    said = springblock("plot", tmp_path / "short.nc", "--output", tmp_path / "a.png", refused=True)
+    assert said.endswith("short.nc holds no fields of springblock, or is cut short")
     assert not (tmp_path / "a.png").exists()
 
 

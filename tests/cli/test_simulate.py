@@ -10,9 +10,10 @@ import time
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
+import xarray
 
 from springblock import Prelude, read, simulate
-from springblock.io.fields import read_fields
+from springblock.simulation.fields import Fields
 from springblock.simulation.prelude import HOLDING
 
 FLAT = ("--n-blocks", 6)
@@ -110,7 +111,8 @@ def test_fields_are_written_beside_the_run_and_go_on_with_it(springblock, tmp_pa
     springblock(*asked, run, "--fields", plain)
     springblock(*asked, run, "--fields", kept, "--checkpoint", 1)
     assert plain.read_bytes() == kept.read_bytes()
-    fields, about = read_fields(plain)
+    with xarray.open_dataset(plain) as data:
+        fields, about = Fields.from_xarray(data), data.attrs
     assert (about["seed"], about["scene"]) == ("0", "n_blocks = 6, level = 0, direction = x")
     assert (about["gamma"], about["law"]) == (5e3, "coulomb")
     np.testing.assert_array_equal(read(run)[0].snapshots, fields.displacement)

@@ -1,12 +1,11 @@
-"""Files of fields, read by other libraries than the one of this project."""
+"""Files of fields, written and read by xarray."""
 
 import numpy as np
 import pytest
 import xarray
-from scipy.io import netcdf_file
 
 from springblock import Material, Pattern, Setup, Surface, simulate
-from springblock.io.fields import read_fields, write_fields
+from springblock.simulation.fields import BlockState, Fields
 
 SURFACE = Pattern.flat(8, 4).pillared(2, 2)
 TIMES = (1e-6, 2e-6)
@@ -25,12 +24,17 @@ def fields():
 
 @pytest.fixture
 def file(fields, tmp_path):
-    write_fields(fields, tmp_path / "run.nc", scene="eight by four, ü ≈ µ", gamma=5e3)
+    data = fields.to_xarray().assign_attrs(scene="eight by four, ü ≈ µ", gamma=5e3)
+    data.to_netcdf(tmp_path / "run.nc", engine="scipy")
     return tmp_path / "run.nc"
 
 
-def test_xarray_finds_coordinates_and_missing_values(fields, file):
+def test_coordinates_units_and_missing_values_are_in_the_file(fields, file):
     with xarray.open_dataset(file) as data:
+        assert (data.attrs["Conventions"], data.attrs["gamma"]) == ("CF-1.11", 5e3)
+        assert data.state.attrs["flag_meanings"].split() == ["free", "stuck", "sliding"]
+        assert list(data.state.attrs["flag_values"]) == list(BlockState)
+        assert "missing where the block has no contact" in data.stress_x.attrs["comment"]
         assert dict(data.sizes) == {"time": 2, "y": 4, "x": 8}
         assert set(data.coords) == {"time", "x", "y"}
         assert {name: data[name].attrs["units"] for name in data.variables} == UNITS
@@ -40,28 +44,9 @@ def test_xarray_finds_coordinates_and_missing_values(fields, file):
 
 
 def test_fields_are_read_back_to_the_bit(fields, file):
-    again, attributes = read_fields(file)
-    assert attributes["scene"] == "eight by four, ü ≈ µ"
+    with xarray.open_dataset(file) as data:
+        again = Fields.from_xarray(data)
+    assert data.attrs["scene"] == "eight by four, ü ≈ µ"
     for name in ("time", "displacement", "velocity", "stress", "slip", "state", "contact"):
         assert getattr(again, name).tobytes() == getattr(fields, name).tobytes()
     assert again.spacing == fields.spacing
-
-
-def test_a_file_of_other_variables_is_refused(tmp_path):
-    with netcdf_file(tmp_path / "run.nc", "w") as other:
-        other.createDimension("time", 1)
-        other.createVariable("time", "f8", ("time",))[:] = 0.0
-    with pytest.raises(ValueError, match="holds no fields of springblock"):
-        read_fields(tmp_path / "run.nc")
-
-
-def test_what_cannot_be_written_is_refused(fields, tmp_path):
-    without = simulate(Surface(SURFACE.contact, 1.0, 0.6), duration=1e-6).fields
-    for some, name, more, sentence in (
-        (without, "run.nc", {}, "no fields to write"),
-        (fields, "run.h5", {}, "to a file of type .nc"),
-        (fields, "run.nc", {"mode": "slow"}, "no attribute of a NetCDF file can be called 'mode'"),
-    ):
-        with pytest.raises(ValueError, match=sentence):
-            write_fields(some, tmp_path / name, **more)
-    assert list(tmp_path.iterdir()) == []

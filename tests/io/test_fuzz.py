@@ -9,14 +9,12 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from springblock import Pattern, Prelude, Surface, compute_prelude, read, simulate, write_fields
-from springblock.io.fields import read_fields
+from springblock import Pattern, Prelude, Surface, compute_prelude, read
 from springblock.model.blockmap import BlockMap
 
 PATTERN = Pattern.pillars(6, 2, 1)
 READERS: dict[str, Callable[[Path], object]] = {
     "batch.parquet": read,
-    "fields.nc": read_fields,
     "prelude.npz": Prelude.read,
     "mask.npy": BlockMap.mask,
     "mask.png": BlockMap.mask,
@@ -37,8 +35,6 @@ def whole(springblock, tmp_path) -> Path:
         "simulate", "--n-blocks", 6, "--duration", 1e-6, "--output", tmp_path / "batch.parquet"
     )
     surface = Surface.draw(PATTERN.contact, seed=1)
-    run = simulate(surface, duration=1e-6, snapshot_times=[1e-6])
-    write_fields(run.fields, tmp_path / "fields.nc")
     compute_prelude(PATTERN.contact).save(tmp_path / "prelude.npz")
     np.save(tmp_path / "mask.npy", PATTERN.contact)
     np.save(tmp_path / "coefficients.npy", surface.mu_static)
@@ -47,7 +43,6 @@ def whole(springblock, tmp_path) -> Path:
     return tmp_path
 
 
-@pytest.mark.filterwarnings("ignore::RuntimeWarning")  # of SciPy, for impossible sizes
 @pytest.mark.parametrize("name", READERS)
 def test_a_damaged_file_is_read_or_refused_in_one_sentence(name, whole):
     file = whole / name

@@ -85,13 +85,8 @@ def test_heights_come_from_the_channel_that_is_named(tmp_path, monkeypatch):
     for channel, highest in ((None, 11), ("a", 11), ("b", 0)):
         contact = Cut(file, 1e-5, bearing_area=1 / 12, channel=channel).mask()
         assert np.flatnonzero(contact) == [highest]
-    channels[1].name = "a"
-    for name in "ac":  # twice, and never
-        with pytest.raises(ValueError, match=rf"channel must be the name of one .* not .{name}."):
-            Cut(file, 1e-5, bearing_area=0.5, channel=name).mask()
-    channels[0].is_height_channel, channels[0].data_unit = False, "V"
-    with pytest.raises(ValueError, match=r"its channel .a. has no heights, but V"):
-        Cut(file, 1e-5, bearing_area=0.5).mask()
+    with pytest.raises(ValueError, match=r"channel must be one of \['a', 'b'\], not 'c'"):
+        Cut(file, 1e-5, bearing_area=0.5, channel="c").mask()
 
 
 def test_options_of_the_command_are_those_of_the_cut(springblock, tmp_path):
@@ -102,22 +97,18 @@ def test_options_of_the_command_are_those_of_the_cut(springblock, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("bearing_area", "nearest"),
-    [(1 / 12, "0.25"), (0.5, "0.25 or 0.75"), (0.01, "0.25"), (1.0, "0.25 or 0.75")],
+    ("bearing_area", "near"), [(1 / 12, 0.25), (0.5, 0.75), (0.01, 0.25), (1.0, 0.75)]
 )
-def test_a_bearing_area_that_no_level_gives_is_refused(
-    tmp_path, monkeypatch, bearing_area, nearest
-):
+def test_a_bearing_area_that_no_level_gives_is_refused(tmp_path, monkeypatch, bearing_area, near):
     """Three blocks are equally high, six lower, and three were not measured."""
     heights = np.repeat([[2.0, 1.0, 1.0, np.nan]], 3, axis=0)
     measured = np.ma.masked_invalid(heights.T)
     steps = SurfaceTopography.Topography(measured, (40.0, 30.0), unit="µm")
     monkeypatch.setattr(SurfaceTopography, "open_topography", opened(steps))
     file = written(tmp_path, HEIGHTS)
-    with pytest.raises(ValueError, match=rf"choose the bearing area {nearest}, or a height$"):
+    with pytest.raises(ValueError, match=rf"bearing_area, for instance {near}, or a height$"):
         Cut(file, 1e-5, bearing_area=bearing_area).mask()
-    for area in map(float, nearest.split(" or ")):
-        assert Cut(file, 1e-5, bearing_area=area).mask().mean() == area
+    assert Cut(file, 1e-5, bearing_area=near).mask().mean() == near
 
 
 def test_a_name_has_all_that_a_cut_was_made_with(tmp_path):
@@ -141,16 +132,16 @@ def test_jobs_read_what_was_cut(tmp_path):
 @pytest.mark.parametrize(
     ("header", "how", "sentence"),
     [
-        ("", {"height": 1e-9}, "must contain the size"),
-        ("# Width: 40 µm\n# Height: 30 µm\n", {"height": 1e-9}, "its unit of length"),
-        (None, {"height": 1.0}, "height = 1.0 m is above the highest block, 1.1e-08 m"),
-        (None, {"height": 1e-9, "spacing": 1.0}, "blocks of spacing = 1.0 m"),
-        (None, {"height": 1e-9, "spacing": 1e-12}, "1 to 4096 blocks of spacing"),
-        (None, {"height": 1e-9, "spacing": 0.0}, "spacing must be positive"),
-        (None, {}, "either bearing_area or height"),
-        (None, {"height": 1e-9, "bearing_area": 0.5}, "either bearing_area or height"),
-        (None, {"bearing_area": 0.0}, "bearing_area must be in .0, 1."),
-        (None, {"bearing_area": 30}, "bearing_area must be in .0, 1."),
+        ("", {"height": 1e-9}, "physical_sizes"),
+        ("# Width: 40 µm\n# Height: 30 µm\n", {"height": 1e-9}, "a unit of length"),
+        (None, {"height": 1.0}, "no block reaches the height of 1.0 m"),
+        (None, {"height": 1e-9, "spacing": 1.0}, "spacing must put 1 to 4096 blocks on each side"),
+        (None, {"height": 1e-9, "spacing": 1e-12}, "spacing must put"),
+        (None, {"height": 1e-9, "spacing": 0.0}, "spacing must put"),
+        (None, {}, "either a bearing_area"),
+        (None, {"height": 1e-9, "bearing_area": 0.5}, "either a bearing_area"),
+        (None, {"bearing_area": 0.0}, "bearing_area in .0, 1."),
+        (None, {"bearing_area": 30}, "bearing_area in .0, 1."),
     ],
 )
 def test_invalid_cuts_are_refused(tmp_path, header, how, sentence):
@@ -166,10 +157,9 @@ MAP, NOTHING = (4e-5, 3e-5), np.ma.masked_all((4, 3))
     ("measured", "sentence"),
     [
         # as an atomic force microscope may leave them
-        (SurfaceTopography.Topography(HEIGHTS.T, MAP, unit="V"), "its unit must be a length"),
-        (SurfaceTopography.Topography(NOTHING, MAP, unit="m"), "has no valid point"),
-        (SurfaceTopography.UniformLineScan(HEIGHTS[0], 4e-5, unit="m"), "not a profile"),
-        (SimpleNamespace(nb_grid_pts=(2**14, 2**13)), "it has 134217728 points"),
+        (SurfaceTopography.Topography(HEIGHTS.T, MAP, unit="V"), "Unit 'V'"),
+        (SurfaceTopography.Topography(NOTHING, MAP, unit="m"), "no height puts a share of 0.5"),
+        (SurfaceTopography.UniformLineScan(HEIGHTS[0], 4e-5, unit="m"), "map of heights"),
     ],
 )
 def test_what_is_no_map_of_heights_is_refused(tmp_path, monkeypatch, measured, sentence):
@@ -186,9 +176,6 @@ def test_other_files_are_refused_in_one_sentence(tmp_path, monkeypatch, name):
     with pytest.raises(ValueError, match=rf"^\S+{name}") as refusal:
         Cut(file, 1e-5, bearing_area=0.5).mask()
     assert "\n" not in str(refusal.value)
-    monkeypatch.setattr("springblock.model.blockmap._BYTES", 10)
-    with pytest.raises(ValueError, match=rf"{name} is too large"):
-        Cut(file, 1e-5, bearing_area=0.5).mask()
 
 
 def test_blocks_without_a_height_are_not_in_contact(tmp_path, monkeypatch):
@@ -202,5 +189,5 @@ def test_blocks_without_a_height_are_not_in_contact(tmp_path, monkeypatch):
 
 def test_whatever_a_reader_fails_with_is_one_sentence(tmp_path, monkeypatch):
     monkeypatch.setattr(SurfaceTopography, "open_topography", lambda file: {}["scan"])
-    with pytest.raises(ValueError, match=r"rough.txt cannot be read: KeyError\('scan'\)"):
+    with pytest.raises(ValueError, match=r"rough.txt: 'scan'"):
         Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5).mask()

@@ -40,7 +40,6 @@ from springblock.claims import STATEMENTS
 from springblock.claims.table import rows as judged
 from springblock.cli import main
 from springblock.cli.simulate import batch_table
-from springblock.io.fields import write_fields
 from springblock.io.parquet import write
 from springblock.io.records import Record
 from springblock.io.rows import Row
@@ -183,7 +182,8 @@ def fields() -> str:
         stress=rng.standard_normal(vectors),
     )
     with tempfile.TemporaryDirectory() as name:
-        write_fields(made, file := Path(name) / "fields.nc", gamma=5e3)
+        data = made.to_xarray().assign_attrs(gamma=5e3)
+        data.to_netcdf(file := Path(name) / "fields.nc", engine="scipy")
         with netcdf_file(file, mmap=False) as held:
             parts = {"file": held} | dict(held.variables)
             lines = [f"{each}: {dict(part._attributes)}" for each, part in parts.items()]

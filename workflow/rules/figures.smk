@@ -39,7 +39,7 @@ rule film:
     input:
         lambda wildcards: PLANNED.batches([PLANNED.films[wildcards.surface]])[:1],
     output:
-        f"{RESULTS}/films/{{surface}}.mp4",
+        f"{RESULTS}/films/{{surface}}.gif",
     log:
         f"{RESULTS}/logs/films/{{surface}}.log",
     params:

@@ -14,17 +14,11 @@ from springblock.model.material import Material
 
 @click.command("mask")
 @click.argument("topography", type=INPUT)
-@click.option(
-    "--bearing-area", type=float, help="Share of the blocks in contact, the highest ones."
-)
+@click.option("--bearing-area", type=float, help="Share of blocks in contact, the highest ones.")
 @click.option("--height", type=float, help="Height that blocks in contact reach, m.")
 @defaulted("--spacing", type=float, default=Material().spacing, help="Lattice spacing, m.")
-@click.option(
-    "--channel", help="Channel of the file that holds the heights.  [default: the reader's]"
-)
-@click.option(
-    "--detrend", type=click.Choice(list(TRENDS)), help="Trend to subtract before the cut."
-)
+@click.option("--channel", help="Channel of heights.  [default: the reader's]")
+@click.option("--detrend", type=click.Choice(list(TRENDS)), help="Trend to subtract first.")
 @click.option("--output", type=Output(".npy"), required=True, help="NumPy array (.npy).")
 def mask(topography: Path, output: Path, **cut: Any) -> None:
     """Cut a measured TOPOGRAPHY into a contact mask.

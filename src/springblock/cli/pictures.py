@@ -6,7 +6,6 @@ import click
 from matplotlib.figure import Figure
 
 from springblock.cli.options import INPUT, PICTURE, Output, scene_options
-from springblock.io.fields import read_fields
 from springblock.io.parquet import read as read_tables
 from springblock.io.records import Record, read
 from springblock.io.schemas import SUMMARY
@@ -14,6 +13,7 @@ from springblock.model.scene import Scene
 from springblock.plotting import film, still, sweep
 from springblock.plotting.lines import lines
 from springblock.plotting.style import save
+from springblock.simulation.fields import Fields, import_xarray
 
 _SEED = click.option("--seed", type=int, help="Seed of the run to draw; the first run by default.")
 
@@ -32,8 +32,13 @@ def _fields(files: tuple[Path, ...], options: object) -> Figure:
     """Draw the fields of one file, which holds one run: no options apply."""
     if len(files) > 1 or options:
         raise ValueError(f"{files[0]} holds fields of one run: plot it alone, without an option")
-    fields, attributes = read_fields(files[0])
-    return still.plot_fields(fields, f"{attributes.get('scene')}, seed = {attributes.get('seed')}")
+    xarray = import_xarray()
+    try:
+        with xarray.open_dataset(files[0]) as data:
+            fields, about = Fields.from_xarray(data), data.attrs
+    except Exception as error:  # of xarray, or of the library that it chooses for the file
+        raise ValueError(f"{files[0]} holds no fields of springblock, or is cut short") from error
+    return still.plot_fields(fields, f"{about.get('scene')}, seed = {about.get('seed')}")
 
 
 @click.command("plot")

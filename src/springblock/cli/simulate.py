@@ -22,8 +22,7 @@ from springblock.cli.options import (
     scene_options,
     with_options,
 )
-from springblock.files import MENDING
-from springblock.io.fields import write_fields
+from springblock.files import MENDING, whole_file
 from springblock.io.identity import identity, metadata
 from springblock.io.parquet import rows_to_table, write
 from springblock.io.rows import Row
@@ -33,6 +32,7 @@ from springblock.model.material import LAWS, Material
 from springblock.model.scene import Scene
 from springblock.model.surface import Surface
 from springblock.provenance import made_by, same_code
+from springblock.simulation.fields import Fields, import_xarray
 from springblock.simulation.prelude import Prelude, compute_prelude
 from springblock.simulation.scenes import columns_of, prelude_of, realise
 from springblock.simulation.setup import Setup
@@ -184,7 +184,7 @@ def simulate_batch(
     if field_file is not None:
         source = {"source": f"springblock {origin['code_version']}", "seed": str(first_seed)}
         about = source | {"scene": str(scene), "identity": origin["configuration"]}
-        write_fields(run.fields, field_file, **about, **setup.constants)
+        _write_fields(run.fields, field_file, about | setup.constants)
     write(batch_table(rows), output, origin)
     click.echo(_in_words(rows))
 
@@ -222,6 +222,16 @@ def _check_fields(field_file: Path | None, snapshot_times: tuple[float, ...], se
         raise ValueError(f"--fields {field_file} needs times: give one or more with --snapshot")
     if len(seeds) > 1:
         raise ValueError(f"--fields {field_file} takes one seed, not {len(seeds)}")
+    import_xarray()  # refused before the run, not after it
+
+
+def _write_fields(fields: Fields, file: Path, about: dict[str, Any]) -> None:
+    """Write fields as NetCDF, whole or not at all, with attributes of the run: numbers or text."""
+    attributes = {
+        name: value if isinstance(value, float) else str(value) for name, value in about.items()
+    }
+    with whole_file(file) as partial:
+        fields.to_xarray().assign_attrs(attributes).to_netcdf(partial, engine="scipy")
 
 
 def batch_table(rows: list[Row]) -> pa.Table:

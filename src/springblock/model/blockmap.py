@@ -1,32 +1,24 @@
-"""Contact masks, friction coefficients and topographies from files."""
+"""Contact masks and friction coefficients from files, and masks cut from topographies."""
 
 import hashlib
-import math
 import re
-import reprlib
-import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from shlex import quote
-from tokenize import TokenError  # NumPy parses headers
+from textwrap import shorten
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.files import MENDING
 from springblock.model.pattern import MAX_BLOCKS
 
 Array = NDArray[Any]
-
-#: Name of a mask cut by a study, which ends with its digest.
-_IS_NAMED = re.compile(r".*-[0-9a-f]{8}")
-_POINTS, _BYTES = 2**26, 2**28  #: largest topography, 8192 x 8192 points and some 260 MB
-#: Image formats. Pillow reads more, among them PostScript, for which it starts another program.
-_FORMATS = ("BMP", "GIF", "JPEG", "PNG", "PPM", "TIFF", "WEBP")
 #: Trends that may be subtracted from heights, and their names in SurfaceTopography.
 TRENDS = {"plane": "height", "quadratic": "curvature"}
-_MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA")  #: image modes, by Pillow's names
+_MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA")  #: of images with 1 or 8 bits per channel
 
 
 @dataclass(frozen=True)
@@ -43,51 +35,8 @@ class Cut:
     @property
     def arguments(self) -> str:
         """The cut as options of `springblock mask`."""
-        given = {name: value for name, value in vars(self).items() if value is not None}
-        del given["topography"]  # the argument of the command
-        return " ".join(
-            f"--{name.replace('_', '-')} {quote(str(value))}" for name, value in given.items()
-        )
-
-    def mask(self) -> Array:
-        """Blocks in contact, (N_y, N_x) bool, [y, x].
-
-        The height of a block is that of the measured point at its centre; a block without a value
-        is not in contact. Without `detrend` the heights are those of the file, tilt included; with
-        it they are relative to a plane or a quadratic surface, fitted by least squares.
-        """
-        if (self.bearing_area is None) == (self.height is None):
-            raise ValueError(f"{self.topography}: give either bearing_area or height")
-        if self.bearing_area is not None and not 0.0 < self.bearing_area <= 1.0:
-            raise ValueError(f"bearing_area must be in (0, 1], not {self.bearing_area!r}")
-        if not self.spacing > 0.0:
-            raise ValueError(f"spacing must be positive, not {self.spacing!r}")
-        heights = self._heights()
-        level = self._level(heights) if self.height is None else self.height
-        contact = heights >= level  # False for NaN
-        if not contact.any():
-            raise ValueError(
-                f"{self.topography}: height = {level!r} m is above the highest block, "
-                f"{np.nanmax(heights):.4g} m"
-            )
-        return contact
-
-    def _level(self, heights: Array) -> float:
-        """Height, m, of the lowest block in contact at the given share of blocks in contact.
-
-        Where blocks are equally high or have no height, no level may give this share.
-        """
-        highest = np.sort(heights[np.isfinite(heights)])[::-1]
-        number = round(float(self.bearing_area or 0.0) * heights.size)
-        level = highest[min(max(number, 1), highest.size) - 1]
-        above, reached = np.count_nonzero(highest > level), np.count_nonzero(highest >= level)
-        if reached != number:
-            nearest = " or ".join(f"{n / heights.size:.8g}" for n in (above, reached) if n)
-            raise ValueError(
-                f"{self.topography}: no height puts a share of {self.bearing_area!r} of the blocks "
-                f"in contact; choose the bearing area {nearest}, or a height"
-            )
-        return float(level)
+        given = {k: v for k, v in vars(self).items() if k != "topography" and v is not None}
+        return " ".join(f"--{key.replace('_', '-')} {quote(str(v))}" for key, v in given.items())
 
     @property
     def name(self) -> str:
@@ -96,30 +45,63 @@ class Cut:
         words = self.topography.stem, self.channel, self.detrend, str(float(level or 0.0))
         return "_".join(filter(None, words))
 
+    def mask(self) -> Array:
+        """Return the blocks in contact, (N_y, N_x) bool, [y, x].
+
+        A block without a height is not in contact. A ValueError says why there is no mask.
+        """
+        share = self.bearing_area
+        if (share is None) == (self.height is None) or not (share is None or 0.0 < share <= 1.0):
+            raise ValueError("a cut needs either a bearing_area in (0, 1] or a height")
+        with _naming(self.topography):
+            heights, level, number = self._heights(), self.height, 0
+            if share is not None:
+                number = round(share * heights.size)
+                ascending = np.sort(np.nan_to_num(heights, nan=-np.inf), axis=None)
+                level = ascending[-max(number, 1)]
+            contact: Array = heights >= level  # False for NaN
+            if share is not None and np.count_nonzero(contact) != number:
+                raise ValueError(
+                    f"no height puts a share of {share} of the blocks in contact; choose another "
+                    f"bearing_area, for instance {contact.mean():.8g}, or a height"
+                )
+            if not contact.any():
+                raise ValueError(f"no block reaches the height of {level} m")
+        return contact
+
     def _heights(self) -> Array:
-        """Heights in m at the centres of blocks, (N_y, N_x), [y, x]; NaN if not measured."""
-        heights, sizes = _measured(self.topography, self.channel, self.detrend)
-        number = [size / self.spacing * (1.0 + 1e-9) for size in sizes]
-        if not all(1.0 <= blocks < MAX_BLOCKS + 1.0 for blocks in number):
+        """Return heights in m, those at the centres of blocks, (N_y, N_x), [y, x]; NaN: none."""
+        try:
+            from SurfaceTopography import open_topography
+        except ImportError:
             raise ValueError(
-                f"{self.topography} is {sizes[0]:.4g} x {sizes[1]:.4g} m; each side must hold 1 to "
-                f"{MAX_BLOCKS} blocks of spacing = {self.spacing!r} m"
-            )
+                "it needs SurfaceTopography: pip install 'springblock[topography]'"
+            ) from None
+        with open_topography(self.topography) as reader:
+            channels = {None: reader.default_channel} | {c.name: c for c in reader.channels}
+            if self.channel not in channels:
+                raise ValueError(f"channel must be one of {[*channels][1:]}, not {self.channel!r}")
+            measured = reader.topography(channel_index=channels[self.channel].index)
+        if measured.dim != 2 or measured.unit is None:
+            raise ValueError("it must hold a map of heights with a unit of length")
+        metres = measured.to_unit("m")
+        metres = metres.detrend(TRENDS[self.detrend]) if self.detrend else metres
+        heights: Array = np.ma.filled(np.ma.asarray(metres.heights(), dtype=float), np.nan)
+        sides = [size * (1.0 + 1e-9) for size in metres.physical_sizes]
+        if not all(self.spacing <= side < (MAX_BLOCKS + 1) * self.spacing for side in sides):
+            raise ValueError(f"spacing must put 1 to {MAX_BLOCKS} blocks on each side")
         x, y = (
-            ((np.arange(n) + 0.5) * self.spacing / size * points).astype(int)
-            for n, size, points in zip(map(int, number), sizes, heights.shape, strict=True)
+            ((np.arange(int(side / self.spacing)) + 0.5) * self.spacing / size * points).astype(int)
+            for side, size, points in zip(sides, metres.physical_sizes, heights.shape, strict=True)
         )
         return heights[np.ix_(x, y)].T
 
 
 @dataclass(frozen=True)
 class BlockMap:
-    """One value per block, from a file: a contact mask, or friction coefficients.
+    """One value per block, from a file: a contact mask, or friction coefficients."""
 
-    The name contains a digest of the values, so that a changed file is a different map.
-    """
-
-    name: str  #: name of the file and eight digits, as islands-1a2b3c4d
+    name: str  #: name of the file and a digest of the values, as islands-1a2b3c4d
     values: Array | None = field(default=None, compare=False, repr=False)  #: None if not known
     file: Path | None = field(default=None, compare=False, repr=False)  #: file that jobs read
     cut: Cut | None = field(default=None, compare=False, repr=False)  #: cut that makes this file
@@ -131,33 +113,22 @@ class BlockMap:
     def mask(cls, file: Path) -> "BlockMap":
         """Read a contact mask, (N_y, N_x) bool, [y, x], from an image or a NumPy array.
 
-        In a black and white image, white pixels are in contact, and the last row is y = 0, as the
-        image is seen. In an array (.npy), non-zero values are in contact, and the first row is
-        y = 0.
+        In an image, white pixels are in contact and the last row is y = 0. In an array (.npy),
+        non-zero values are in contact and the first row is y = 0.
         """
-        values = _array(file) if file.suffix == ".npy" else _image(file)
-        found = np.unique(values)
-        is_number = values.dtype.kind in "biuf"
-        if not (is_number and np.isfinite(found).all() and np.count_nonzero(found) <= 1):
-            raise ValueError(
-                f"{file}: a contact mask must hold zeros and one other value, "
-                f"not {reprlib.repr(found.tolist())}"
-            )
-        if not found.any():
-            raise ValueError(f"{file}: at least one block must be in contact, not zero or black")
-        name = _name(file.stem, values != 0)
-        if _IS_NAMED.fullmatch(file.stem) and name != file.stem:
-            raise ValueError(f"{file} holds the mask {name}, not that of its name; {MENDING}")
-        return cls(name, values != 0, file)
+        with _naming(file):
+            values = _array(file) if file.suffix == ".npy" else _image(file)
+            found = np.unique(values)
+            if not np.isfinite(found).all() or np.count_nonzero(found) != 1:
+                raise ValueError("a mask must hold zeros and one other value, in contact")
+            return cls(_name(file.stem, values != 0), values != 0, file)
 
     @classmethod
     def coefficients(cls, file: Path) -> "BlockMap":
         """Read friction coefficients, (N_y, N_x) float, [y, x], from a NumPy array (.npy)."""
-        values = _array(file)
-        if values.dtype.kind not in "iuf":
-            raise ValueError(f"{file} must hold real numbers, not {values.dtype}")
-        values = values.astype(float)
-        return cls(_name(file.stem, values), values, file)
+        with _naming(file):
+            values = _array(file).astype(float)
+            return cls(_name(file.stem, values), values, file)
 
     @classmethod
     def of_topography(cls, cut: Cut, folder: Path) -> "BlockMap":
@@ -167,8 +138,20 @@ class BlockMap:
         return cls(name, values, folder / f"{name}.npy", cut)
 
 
+@contextmanager
+def _naming(file: Path) -> Iterator[None]:
+    """Raise all errors, also those of libraries, as a ValueError of one sentence with the file."""
+    try:
+        file.stat()
+        yield
+    except Exception as error:
+        raise ValueError(f"{file}: {shorten(str(error) or repr(error), 250)}") from None
+
+
 def _name(stem: str, values: Array) -> str:
-    """Name in characters that are safe in paths and tables, with a digest of `values`."""
+    """Return a name in characters that are safe in paths and tables, with a digest of `values`."""
+    if max(values.shape) > MAX_BLOCKS:
+        raise ValueError(f"a surface may have at most {MAX_BLOCKS} x {MAX_BLOCKS} blocks")
     content = hashlib.sha256(f"{values.dtype.str} {values.shape} ".encode())
     content.update(np.ascontiguousarray(values).tobytes())
     digest = f"-{content.hexdigest()[:8]}"
@@ -176,117 +159,25 @@ def _name(stem: str, values: Array) -> str:
 
 
 def _array(file: Path) -> Array:
-    """Read a two-dimensional array; pickled objects are never loaded."""
-    if not file.is_file():
-        raise ValueError(f"{file} does not exist")
-    try:
-        with np.errstate(over="ignore"):  # a damaged header may give an impossible size
-            values = np.load(file, mmap_mode="r", allow_pickle=False)
-    except (ValueError, OSError, OverflowError, EOFError, TokenError):
-        values = None
-    if not isinstance(values, np.ndarray):
-        raise ValueError(f"{file} must be an array of numbers saved by NumPy as .npy")
-    if values.ndim != 2 or not values.size:
-        raise ValueError(f"{file} must have the shape (N_y, N_x), not {values.shape}")
-    if max(values.shape) > MAX_BLOCKS:  # only the header has been read
-        raise ValueError(
-            f"{file} is too large; a surface may have at most {MAX_BLOCKS} x {MAX_BLOCKS} blocks"
-        )
-    return np.array(values)
+    with file.open("rb") as stream:
+        values = np.lib.format.read_array(stream, allow_pickle=False)
+    if values.dtype.kind not in "biuf" or values.ndim != 2:
+        raise ValueError(f"it must hold numbers, (N_y, N_x), not {values.dtype} {values.shape}")
+    return values
 
 
 def _image(file: Path) -> Array:
-    """Read a black and white image, (N_y, N_x) of 0 and 255, last row first."""
-    from PIL import Image, ImageOps, UnidentifiedImageError
+    """Read which pixels of a black and white image are white, (N_y, N_x), last row first."""
+    from PIL import Image, ImageOps
 
-    if not file.is_file():
-        raise ValueError(f"{file} does not exist")
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error", Image.DecompressionBombWarning)
-            # from a stream: by name, Pillow 13 garbles plain TIFF files with an orientation
-            with file.open("rb") as stream, Image.open(stream, formats=_FORMATS) as image:
-                if max(image.size) > MAX_BLOCKS:  # only the header has been read
-                    raise Image.DecompressionBombError
-                mode, pictures = image.mode, getattr(image, "n_frames", 1)
-                pixels = np.asarray(ImageOps.exif_transpose(image).convert("RGBA"))
-    except UnidentifiedImageError:
-        raise ValueError(f"{file} is neither an image nor a NumPy array (.npy)") from None
-    except (Image.DecompressionBombWarning, Image.DecompressionBombError):
+    # from a stream: by name, Pillow 13 garbles plain TIFF files with an orientation
+    with file.open("rb") as stream, Image.open(stream) as image:
+        is_plain = image.mode in _MODES and getattr(image, "n_frames", 1) == 1
+        pixels = np.asarray(ImageOps.exif_transpose(image).convert("RGBA"))
+    black, white = ((pixels == (*[shade] * 3, 255)).all(axis=2) for shade in (0, 255))
+    if not (is_plain and (black | white).all()):
         raise ValueError(
-            f"{file} is too large; a surface may have at most {MAX_BLOCKS} x {MAX_BLOCKS} blocks"
-        ) from None
-    except (OSError, SyntaxError, ValueError) as error:
-        raise ValueError(f"{file} cannot be read: {error}") from None
-    if pictures > 1:
-        raise ValueError(f"{file} holds {pictures} pictures; save the one to be used as a file")
-    shades, opacity = pixels[..., 0], pixels[..., 3]
-    is_grey = mode in _MODES and (pixels[..., :3] == shades[..., None]).all()
-    if not (is_grey and np.isin(shades, (0, 255)).all() and (opacity == 255).all()):
-        raise ValueError(
-            f"{file} must be black and white, with 1 or 8 bits per channel: only the values 0 and "
-            "255, no grey, colour or transparency; choose a threshold and save the image again "
-            "with white for the pixels in contact and black for all others"
+            "it must be one black and white picture of 1 or 8 bits, without grey, colour or "
+            "transparency: choose a threshold, with white for the pixels in contact"
         )
-    return shades[::-1]
-
-
-class _Unsuitable(ValueError):
-    """A topography that can be read and not be used."""
-
-
-def _measured(
-    file: Path, channel: str | None, detrend: str | None
-) -> tuple[Array, tuple[float, float]]:
-    """Heights, [x, y], NaN if not measured, and size along x and y, all in m.
-
-    Read by SurfaceTopography (https://contactengineering.github.io/SurfaceTopography/).
-    """
-    if not file.is_file():
-        raise ValueError(f"{file} does not exist")
-    if file.stat().st_size > _BYTES:
-        raise ValueError(f"{file} is too large; a topography may have at most {_BYTES} bytes")
-    try:
-        from SurfaceTopography import open_topography
-        from SurfaceTopography.Exceptions import ReadFileError
-    except ImportError:
-        raise ValueError(
-            f"to read {file} install SurfaceTopography: pip install 'springblock[topography]'"
-        ) from None
-    try:
-        with open_topography(file) as reader:
-            named = [each for each in reader.channels if channel in (None, each.name)]
-            if channel is not None and len(named) != 1:
-                known = ", ".join(each.name for each in reader.channels)
-                raise _Unsuitable(f"channel must be the name of one of {known}, not {channel!r}")
-            chosen = reader.default_channel if channel is None else named[0]
-            if not getattr(chosen, "is_height_channel", True):  # unknown to version 1.15
-                raise _Unsuitable(
-                    f"its channel {chosen.name!r} has no heights, but {chosen.data_unit}"
-                )
-            points = math.prod(chosen.nb_grid_pts)
-            if points > _POINTS:
-                raise _Unsuitable(f"it has {points} points; {_POINTS} is the largest number")
-            read = reader.topography(channel_index=chosen.index)
-    except _Unsuitable as error:
-        raise ValueError(f"{file}: {error}") from None
-    except ReadFileError:
-        raise ValueError(f"{file} is not a topography that SurfaceTopography can read") from None
-    except Exception as error:  # readers of some formats let any error pass
-        if "physical_sizes" not in str(error):
-            raise ValueError(f"{file} cannot be read: {error!r}") from None
-        read = None
-    if read is None or read.unit is None or read.physical_sizes is None:
-        raise ValueError(f"{file} must contain the size of the surface and its unit of length")
-    if read.dim != 2:
-        raise ValueError(f"{file} must be a map of heights, not a profile")
-    try:
-        metres = read.to_unit("m")
-        if detrend is not None:
-            metres = metres.detrend(TRENDS[detrend])
-        heights: Array = np.ma.filled(np.ma.asarray(metres.heights(), dtype=float), np.nan)
-    except ValueError:
-        raise ValueError(f"{file}: its unit must be a length, not {read.unit!r}") from None
-    if not np.isfinite(heights).any():
-        raise ValueError(f"{file} has no valid point; it must hold heights")
-    return heights, metres.physical_sizes
+    return white[::-1]

@@ -45,7 +45,7 @@ def moving(path: Path, batch: Path) -> dict[str, Any]:
     return {
         "name": path.stem,
         "text": in_words(run),
-        "source": address("video/mp4", path.read_bytes()),
+        "source": address("image/gif", path.read_bytes()),
         "poster": _webp(poster),  # at the force maximum
         "width": poster.width,
         "height": poster.height,

@@ -31,6 +31,16 @@ VARIABLES = {
     "stress_y": ("Pa", "shear stress on the substrate along y"),
     "state": ("1", "state of the block"),
 }
+_ABOUT = {
+    "Conventions": "CF-1.11",
+    "title": "Fields of a spring-block model of the onset of frictional sliding",
+    "references": "https://doi.org/10.1016/j.ijsolstr.2022.111525",
+}
+_COMMENTS = {
+    "stress": "force per l^2: the motive force of a stuck block, the friction force of a sliding "
+    "one; missing where the block has no contact",
+    "slip": "zero until the first detachment; missing where the block has no contact",
+}
 
 
 class BlockState(IntEnum):
@@ -94,13 +104,34 @@ class Fields(Shown):
         }
 
     def to_xarray(self) -> "xarray.Dataset":
-        """Return all fields with coordinates and units, as in the file of `write_fields`."""
-        return dataset(
+        """Return all fields with coordinates, units and the attributes of the CF conventions.
+
+        Its `to_netcdf(file, engine="scipy")` writes a file that ncdump and ParaView open, too.
+        """
+        data = dataset(
             [
                 ((name,) if name in DIMENSIONS else DIMENSIONS, name, values, *VARIABLES[name])
                 for name, values in self.variables().items()
             ]
-        )
+        ).assign_attrs(_ABOUT)
+        for name in data.data_vars:
+            if comment := _COMMENTS.get(str(name).partition("_")[0]):
+                data[name].attrs["comment"] = comment
+        data.state.attrs["flag_values"] = np.array(list(BlockState), np.int8)
+        data.state.attrs["flag_meanings"] = " ".join(each.name.lower() for each in BlockState)
+        return data
+
+    @classmethod
+    def from_xarray(cls, data: "xarray.Dataset") -> "Fields":
+        """Return the fields in a dataset of `to_xarray`, to the bit."""
+        vectors = {
+            name: np.stack([data[f"{name}_{axis}"] for axis in "xy"], axis=1)
+            for name in ("displacement", "velocity", "stress")
+        }
+        contact = data.state.values[0] != BlockState.FREE
+        vectors["stress"] = np.where(contact, vectors["stress"], 0.0)
+        spacing = 2.0 * float(data.x[0])
+        return cls(time=data.time.values, contact=contact, spacing=spacing, **vectors)
 
     def __repr__(self) -> str:
         return f"<fields at {len(self.time)} times: {in_words(self.contact)}>"
@@ -111,16 +142,24 @@ def dataset(variables: Sequence[tuple[Sequence[str], str, Any, str, str]]) -> "x
 
     Those that have the name of a dimension are coordinates.
     """
-    try:
-        import xarray
-    except ModuleNotFoundError:
-        raise ModuleNotFoundError("to_xarray needs xarray: pip install xarray") from None
-    return xarray.Dataset(
+    data = import_xarray().Dataset(
         {
             name: (dimensions, values, {"units": unit, "long_name": meaning})
             for dimensions, name, values, unit, meaning in variables
         }
     )
+    for coordinate in data.coords.values():
+        coordinate.encoding["_FillValue"] = None  # CF: coordinates have no missing values
+    return data
+
+
+def import_xarray() -> Any:
+    """Return the module xarray; a ModuleNotFoundError says how to install it."""
+    try:
+        import xarray
+    except ModuleNotFoundError:
+        raise ModuleNotFoundError("xarray is missing: pip install xarray") from None
+    return xarray
 
 
 def _magnitude(vectors: Array) -> Array:

@@ -235,31 +235,18 @@ def ensembles(configuration: Configuration) -> dict[str, list[Planned]]:
     """
     groups: dict[str, list[Planned]] = {}
     largest: dict[Scene, Planned] = {}
-    masks: dict[str, BlockMap] = {}
     for group, grids in configuration["scenes"].items():
         with _named(f"scenes.{group}"):
             groups[group] = [
                 each for grid in _listed(grids) for each in _expand(configuration, grid)
             ]
             for each in groups[group]:
-                _refuse_other_name(each.scene.mask, masks)
                 known = largest.get(each.scene, each)
                 largest[each.scene] = known.joined(each)
     return {
         group: list(dict.fromkeys(largest[each.scene] for each in members))
         for group, members in groups.items()
     }
-
-
-def _refuse_other_name(mask: BlockMap | None, masks: dict[str, BlockMap]) -> None:
-    """Refuse a mask that is already among `masks`, by content, from another file or cut."""
-    if mask is None:
-        return
-    first = masks.setdefault(mask.name.rpartition("-")[2], mask)
-    if first.file != mask.file:
-        raise ValueError(
-            f"masks {first.file} and {mask.file} describe the same surface {mask}; remove one"
-        )
 
 
 def setup(configuration: Configuration) -> Setup:
