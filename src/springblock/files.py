@@ -63,12 +63,16 @@ def write_sealed(path: Path, content: bytes) -> None:
         partial.write_bytes(content.replace(BLANK, _seal(content)))
 
 
+class UnsealedError(ValueError):
+    """A file has no checksum: it is truncated, or another program wrote it."""
+
+
 def read_sealed(path: Path) -> bytes:
     """Read a file that `write_sealed` has written; a single changed bit is a ValueError."""
     content = path.read_bytes()
     start = content.rfind(_MARK)
     if start < 0:
-        raise ValueError(
+        raise UnsealedError(
             f"{path} has no checksum; it is truncated, or not a table (Parquet) written by "
             f"springblock; {MENDING}"
         )

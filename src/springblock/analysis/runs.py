@@ -10,6 +10,7 @@ from tqdm import tqdm
 from springblock.analysis.ensembles import OBSERVABLES, Ensemble, mean
 from springblock.analysis.statistics import Interval, number
 from springblock.model.notebook import Shown
+from springblock.model.numbers import check_whole
 from springblock.model.pattern import Pattern
 from springblock.model.surface import Surface
 from springblock.simulation.prelude import compute_prelude
@@ -61,12 +62,14 @@ def ensemble(
     setup, direction
         As in `simulate`.
     seeds : int
-        Number of realisations.
+        Number of realisations, at least one.
     jobs : int
-        Cores to use.
+        Cores to use, at least one.
     **options
         `duration` and `snapshot_times`, as in `simulate`.
     """
+    check_whole("seeds", seeds)
+    check_whole("jobs", jobs)
     begun = compute_prelude(contact, setup, direction)
     how: dict[str, Any] = {"prelude": begun, "progress": False} | options
 

@@ -9,7 +9,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from springblock.files import BLANK, MENDING, read_sealed, write_sealed
+from springblock.files import BLANK, MENDING, UnsealedError, read_sealed, write_sealed
 from springblock.io.identity import refuse_foreign
 from springblock.io.schemas import ASKED, SCENE, SETUP
 from springblock.model.material import expanded, law_units
@@ -73,13 +73,18 @@ def _array(values: Sequence[Any] | NDArray[Any], kind: pa.DataType) -> pa.Array:
 def load(
     path: Path, columns: Sequence[str] | None = None, optional: Sequence[str] = ()
 ) -> pa.Table:
-    """Read a file that `write` has written: all its columns, or those given.
+    """Read a file that `write` or pandas has written: all its columns, or those given.
 
     Of `optional`, those that the file has are added to the columns given.
 
     A file that is damaged, not a table, or lacks a column is a ValueError.
     """
-    content = read_sealed(path)
+    try:
+        content = read_sealed(path)
+    except UnsealedError:
+        content = path.read_bytes()
+        if not content.endswith(b"PAR1"):  # the end of a whole file, as pandas writes it
+            raise
     try:
         file = pq.ParquetFile(pa.BufferReader(content))
     except pa.ArrowInvalid:
@@ -118,8 +123,9 @@ def read(paths: Iterable[Path], schema: pa.Schema, optional: pa.Schema = _NONE) 
 
 def refuse_mixed_code(tables: Iterable[tuple[Path, pa.Table]]) -> None:
     """Refuse tables, given with their files, that were made by different code."""
-    versions = ((origin_of(table).get("code_version", ""), path) for path, table in tables)
-    known = {version.rpartition("+")[2]: path for version, path in versions}
+    versions = ((origin_of(table).get("code_version"), path) for path, table in tables)
+    # a table that was filtered with pandas has none
+    known = {version.rpartition("+")[2]: path for version, path in versions if version}
     if len(known) > 1:
         (one, first), (other, second), *_ = known.items()
         raise ValueError(
