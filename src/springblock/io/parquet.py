@@ -99,8 +99,9 @@ def load(
 
 
 def origin_of(table: pa.Table) -> dict[str, str]:
-    """Return the metadata of a table as text."""
-    return {key.decode(): value.decode() for key, value in (table.schema.metadata or {}).items()}
+    """Return the metadata of a table as text, without those that pandas adds."""
+    every = (table.schema.metadata or {}).items()
+    return {key.decode(): value.decode() for key, value in every if key != b"pandas"}
 
 
 def read(paths: Iterable[Path], schema: pa.Schema, optional: pa.Schema = _NONE) -> pa.Table:

@@ -241,6 +241,14 @@ class Scene:
         return {key: file for key, file in files.items() if file}
 
 
+def gap_of(given: int | str, n_p: int) -> int:
+    """Read n_s, possibly as a multiple or a fraction of n_p: "2n_p", "n_p/3"."""
+    if not (isinstance(given, str) and "n_p" in given):
+        return int(given)
+    times, parts = given.split("n_p")
+    return int(times or 1) * n_p // int(parts.removeprefix("/") or 1)
+
+
 def grid_of(lists: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
     """Yield every combination of the values of constants, by name.
 
@@ -248,12 +256,12 @@ def grid_of(lists: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
     built-in laws are zero, and those of other files are left out.
     """
     laws = [as_law(law) for law in lists.get("law", ())]
-    own = {law: law.constants.keys() for law in laws if isinstance(law, LawFile)}
+    own = {str(law): law.constants.keys() for law in laws if isinstance(law, LawFile)}
     for values in product(*lists.values()):
         constants = dict(zip(lists, values, strict=True))
         if "law" in constants:
             constants["law"] = law = as_law(constants["law"])
-            others = set().union(*own.values()) - own.get(law, set())
+            others = set().union(*own.values()) - own.get(str(law), set())
             constants = {name: constants[name] for name in constants if name not in others}
             constants |= {name: 0.0 for other, name in LAWS.items() if name and other != law}
             if law != "slip_weakening":

@@ -18,7 +18,7 @@ from springblock.model.asperities import check_draws
 from springblock.model.blockmap import BlockMap, Cut
 from springblock.model.law import LawFile
 from springblock.model.material import Material, as_law
-from springblock.model.scene import LENGTHS, TEXTS, Scene, Varied, grid_of
+from springblock.model.scene import LENGTHS, TEXTS, Scene, Varied, gap_of, grid_of
 from springblock.model.surface import Surface
 from springblock.simulation.setup import Setup
 from springblock.solver.integrators import INTEGRATORS
@@ -334,7 +334,7 @@ def _expand(configuration: Configuration, grid: Mapping[str, Any] | None) -> Ite
     maps = {constants: _maps(configuration, grid, constants) for constants in varied}
     ways = product(shapes, pillars, n_s, product(*deeper), directions, varied)
     for (n, rows), (size, count), given, rest, direction, constants in ways:
-        lengths = dict(zip(LENGTHS, (size, _gap(given, size), *rest), strict=True))
+        lengths = dict(zip(LENGTHS, (size, gap_of(given, size), *rest), strict=True))
         how = {key: grid[key] for key in ("along_3", "edges") if key in grid}
         how |= {"direction": direction, "varied": constants, "n_rows": rows}
         for own in maps[constants]:
@@ -377,14 +377,6 @@ def _masks(
 def _listed(given: Any) -> list[Any]:
     """Return a list of one or more values."""
     return given if isinstance(given, list) else [given]
-
-
-def _gap(given: int | str, n_p: int) -> int:
-    """Read n_s, possibly as a multiple or a fraction of n_p: "2n_p", "n_p/3"."""
-    if not isinstance(given, str):
-        return given
-    times, parts = given.split("n_p")
-    return int(times or 1) * n_p // int(parts.removeprefix("/") or 1)
 
 
 def _varied(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[Varied]:
