@@ -117,6 +117,17 @@ def test_a_repeated_key_is_refused_with_its_line(tmp_path, text):
     refuse_repeated_keys(file)
 
 
+@pytest.mark.parametrize("velocity", [5e-2, 4.7e-3, 1.234567e-3])
+def test_an_advised_sample_interval_is_accepted(velocity):
+    study = changed("material.slider_velocity", to=velocity) | {"sample_interval": 1e-6}
+    study["scenes"] = {"own": {"direction": "x", "seeds": 3}}
+    study["figures"] = {}
+    with pytest.raises(ValueError, match="is too long for slider_velocity") as refusal:
+        check(study, SCHEMA)
+    advised = float(str(refusal.value).rpartition("at most ")[2].removesuffix(" s"))
+    check(study | {"sample_interval": advised}, SCHEMA)
+
+
 def test_a_scene_of_two_groups_is_one_ensemble_with_the_larger_number_of_seeds():
     both = {"n_p": [6, 20], "n_s": [20, "n_p"], "direction": ["x"], "seeds": [500, 7]}
     groups = ensembles(changed("scenes.both", to=both))
