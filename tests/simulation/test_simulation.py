@@ -279,7 +279,7 @@ def array(value, dtype=float, shape=(2, 2)):
         ({"periodic": True, "contact": array(True, bool, (2, 3))}, "each side .* at least 3"),
         ({"periodic": True, "contact": array(True, bool, (3, 2))}, "each side .* at least 3"),
         ({"step": 0.0}, "step must be finite and positive"),
-        ({"step": 3e-8}, "sample_interval must be a multiple of step"),
+        ({"step": 3e-8, "sample_interval": 2e-7}, "sample_interval must be a multiple of step"),
         ({"sample_interval": 5e-9}, "sample_interval must be a multiple of step"),
         ({"sample_interval": 1e308}, "sample_interval must be a multiple of step"),
         ({"sample_interval": math.nan}, "sample_interval must be finite and positive"),
