@@ -70,3 +70,9 @@ def test_tasks_run_at_the_same_time_and_their_errors_are_raised():
 
 def test_the_version_is_that_of_the_package():
     assert springblock.__version__ == version("springblock")
+
+
+@pytest.mark.parametrize("name", ["seeds", "jobs"])
+def test_an_ensemble_has_a_run_and_a_core(name):
+    with pytest.raises(ValueError, match=f"^{name} must be at least 1, not 0"):
+        ensemble(PATTERN, **{name: 0})

@@ -106,9 +106,6 @@ def test_two_outputs_are_two_files(springblock, batch, tmp_path, monkeypatch):
     names = ("--output-correlation", "a.parquet", "--output-length", tmp_path / "a.parquet")
     said = springblock("correlation", batch(0, 2), *names, refused=True)
     assert said.endswith("a.parquet; choose two files")
-    same = ("--output", "a.png", "--output", "a.png")
-    for words in (("plot", batch(0, 0)), ("figure", "figure_1")):
-        assert "given twice" in springblock(*words, *same, refused=True)
     assert list(tmp_path.iterdir()) == []
 
 

@@ -36,6 +36,28 @@ def test_a_row_holds_the_mean_of_an_ensemble_with_its_interval(springblock, batc
         assert number(mean_interval(values), factor=1e6) in said
 
 
+def test_tables_filtered_with_pandas_are_read_and_contradicting_runs_refused(
+    springblock, batch, tmp_path
+):
+    """They have lost the checksum and the version of the code."""
+    filtered, other = tmp_path / "filtered.parquet", tmp_path / "other.parquet"
+    runs = pq.read_table(batch(0, 2)).to_pandas()
+    runs[runs.seed > 0].to_parquet(filtered)
+    assert [run.seed for run in read(filtered)] == [1, 2]
+    whole = springblock("table", batch(0, 2))
+    assert springblock("table", batch(0, 2), filtered) == whole
+    assert "pandas" not in springblock("info", filtered)
+    faster = batch(0, 2, "--vary", "slider_velocity=1e-3")
+    picture = tmp_path / "a.png"
+    springblock("plot", filtered, faster, "--over", "slider_velocity", "--output", picture)
+    runs.assign(t_max=2.0 * runs.t_max).to_parquet(other)
+    said = springblock("table", batch(0, 2), other, refused=True)
+    assert "seed 0, differ: t_max is " in said
+    content = filtered.read_bytes()
+    filtered.write_bytes(content[: len(content) // 2])
+    assert "has no checksum; it is truncated" in springblock("table", filtered, refused=True)
+
+
 def test_realisations_are_gathered_by_any_name_and_count_once(springblock, batch, tmp_path):
     """A folder may hold them twice, beside other tables."""
     folder, output = tmp_path / "files", tmp_path / "by.parquet"

@@ -27,3 +27,10 @@ def test_numbers_of_numpy_become_those_of_python_and_zero_may_be_allowed():
     assert type(check_whole("N", np.int64(1))) is int
     assert type(check_real("step", np.int8(2))) is float
     assert check_whole("seed", 0, least=0) == check_real("gamma", 0, may_vanish=True) == 0
+
+
+def test_a_whole_number_beyond_the_range_of_floats_is_not_finite():
+    with pytest.raises(
+        ValueError, match=r"gamma must be finite and zero or positive, not 10+\.\.\.0+$"
+    ):
+        check_real("gamma", 10**400, may_vanish=True)

@@ -14,10 +14,12 @@ import studies
 from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
 from springblock.study.configuration import (
+    _Validator,
     check,
     completed,
     ensembles,
     for_figures,
+    refuse_repeated_keys,
     setup,
 )
 from studies import ROOT, SCHEMA, places
@@ -62,6 +64,68 @@ def test_a_constant_that_the_study_changes_is_named_where_it_is_the_papers():
     faster["scenes"] = {"own": {"n_blocks": [9], "material": axis, "direction": ["x"], "seeds": 1}}
     found = [e.scene for e in ensembles(faster)["own"]]
     assert found == [Scene(9, varied={"slider_velocity": 5e-4}), Scene(9)]
+
+
+def test_single_values_are_lists_of_one():
+    constants = {"gamma": 0, "law": "slip_weakening", "slip_distance": 1e-8}
+    single = {"n_p": 4, "n_s": "n_p", "direction": "x", "step": 1e-8, "material": constants}
+    lists = {key: [value] for key, value in single.items()}
+    lists["material"] = {key: [value] for key, value in constants.items()}
+    found = []
+    for grid in (single, lists):
+        study = changed("scenes.own", to=grid | {"seeds": 2})
+        check(study, SCHEMA)
+        found.append(ensembles(study)["own"])
+    assert found[0] == found[1]
+    assert len(found[0]) == 1
+
+
+def test_a_law_ignores_the_constants_of_others(tmp_path):
+    (tmp_path / "law.py").write_text(
+        "CONSTANTS = {'d_0': (1e-8, 'm')}\ndef friction(mu_dynamic, d_0):\n    return mu_dynamic\n"
+    )
+    laws = ["coulomb", "slip_weakening", str(tmp_path / "law.py")]
+    constants = {"law": laws, "slip_distance": [1e-8, 2e-8], "d_0": [1e-8, 3e-8]}
+    grid = {"n_blocks": 9, "direction": "x", "seeds": 1, "material": constants}
+    study = changed("scenes.own", to=grid)
+    check(study, SCHEMA)
+    scenes = [each.scene for each in ensembles(study)["own"]]
+    assert len(scenes) == 1 + 2 + 2
+    assert scenes[0] == Scene(9)
+    slower = PAPER["material"] | {"law": "slip_weakening", "slip_distance": 1e-8}
+    grid = {"n_blocks": 9, "direction": "x", "seeds": 1, "material": {"law": ["coulomb"]}}
+    study = PAPER | {"material": slower, "scenes": {"own": grid}, "figures": {}}
+    check(study, SCHEMA)
+    (each,) = ensembles(study)["own"]
+    assert each.scene.varied == (("law", "coulomb"), ("slip_distance", 0.0))
+
+
+def test_keys_for_anchors_are_no_part_of_the_study():
+    assert completed(PAPER | {"x-common": {"n_p": [4]}}) == PAPER
+    assert not list(_Validator(SCHEMA).iter_errors(PAPER | {"x-common": {"n_p": [4]}}))
+
+
+@pytest.mark.parametrize(
+    "text", ["a: 1\nb: 2\na: 3\n", "s:\n  a: {}\n  a: {}\n", "- {a: 1, a: 2}\n"]
+)
+def test_a_repeated_key_is_refused_with_its_line(tmp_path, text):
+    file = tmp_path / "mine.yaml"
+    file.write_text("\ufeff" + text, encoding="utf-8")
+    with pytest.raises(ValueError, match=r"mine.yaml, line [13]: key 'a' is repeated; rename"):
+        refuse_repeated_keys(file)
+    file.write_text("x: &a {k: 1, all: {<<: &b {k: 2}}}\ny: {<<: *a, k: 3}\nz: [*a, *b]\nw: *a\n")
+    refuse_repeated_keys(file)
+
+
+@pytest.mark.parametrize("velocity", [5e-2, 4.7e-3, 1.234567e-3])
+def test_an_advised_sample_interval_is_accepted(velocity):
+    study = changed("material.slider_velocity", to=velocity) | {"sample_interval": 1e-6}
+    study["scenes"] = {"own": {"direction": "x", "seeds": 3}}
+    study["figures"] = {}
+    with pytest.raises(ValueError, match="is too long for slider_velocity") as refusal:
+        check(study, SCHEMA)
+    advised = float(str(refusal.value).rpartition("at most ")[2].removesuffix(" s"))
+    check(study | {"sample_interval": advised}, SCHEMA)
 
 
 def test_a_scene_of_two_groups_is_one_ensemble_with_the_larger_number_of_seeds():

@@ -147,33 +147,24 @@ CONSTANTS, STATE = "CONSTANTS = {{{}}}\n" + FRICTION, "STATE = {{{}}}\n" + FRICT
     ("text", "sentence"),
     [
         ("friction = 1\n", "must define the function friction"),
-        ("import helper\n" + FRICTION, "it uses helper; import only the standard library"),
-        ("from .helper import mu\n" + FRICTION, "it uses helper"),
-        ("from importlib import import_module\n" + FRICTION, "it uses importlib"),
-        ("exec('x = 1')\n" + FRICTION, "it uses exec"),
         ("1 / 0\n" + FRICTION, "cannot be run: ZeroDivisionError"),
         ("import sys\nsys.exit(0)\n", r"cannot be run: SystemExit\(0\)"),
         ("def friction(:\n", "cannot be run: SyntaxError"),
-        ("# coding: hex\n" + FRICTION, "cannot be read"),
-        ("while True:\n    pass\n" + FRICTION, "a while loop may never end"),
-        (
-            "def friction(speed):\n    return friction(speed)\n",
-            "friction calls friction, which may",
-        ),
         ("def friction(mu):\n    return mu\n", "argument 'mu'; choose from mu_static, mu_dynamic"),
         (CONSTANTS.format("'a': 1.0"), r"CONSTANTS\['a'\] must be \(number, unit\)"),
         (CONSTANTS.format("'speed': (1.0, '')"), "the name 'speed' has two meanings"),
         (CONSTANTS.format("'gamma': (1.0, '')"), "'gamma' is a constant of the material"),
-        (CONSTANTS.format("'a': (1.0, ''), 'a': (2.0, '')"), "'a' is defined twice"),
-        (FRICTION + FRICTION, "friction is defined twice"),
         ("STATE = ['s']\n" + FRICTION, "STATE must be a dictionary"),
         (STATE.format("'s': 'a'"), r"STATE\['s'\] must be a number or the name of"),
         (STATE.format("'s': 0.0"), "must define the function update"),
         (STATE.format("'s': 0.0") + "def update(s):\n    return s, s\n", "must return 1 finite"),
-        ("def friction(speed):\n    return -1.0\n", "not negative, not -1.0 at 0.0 m/s"),
+        (
+            "def friction(speed):\n    return -1.0\n",
+            r"not negative, not -1.0 at rest \(speed = 0\)",
+        ),
         (
             "def friction(speed):\n    return 1.0 / speed\n",
-            "friction fails at 0.0 m/s: ZeroDivision",
+            r"friction fails at rest \(speed = 0\): ZeroDivision",
         ),
     ],
 )
@@ -197,11 +188,6 @@ def test_what_numba_cannot_compile_is_refused(tmp_path):
     (tmp_path / "law.py").write_text("def friction(speed):\n    return len({1: speed, 'a': 2})\n")
     with pytest.raises(ValueError, match=r"law\.py cannot be compiled by numba: .+"):
         one_block(Material(law=tmp_path / "law.py"), 1e-6)
-
-
-def test_a_law_may_do_anything_in_its_own_test(tmp_path):
-    (tmp_path / "law.py").write_text(FRICTION + "if __name__ == '__main__':\n    while True: 0\n")
-    assert LawFile.read(tmp_path / "law.py").arguments("friction") == ["mu_dynamic"]
 
 
 @pytest.mark.parametrize(
@@ -273,14 +259,33 @@ def test_a_constant_with_the_name_of_a_column_is_refused(tmp_path, springblock, 
     assert f"{name!r} is a column of tables; rename it" in springblock(*words, refused=True)
 
 
-def test_a_law_is_another_one_when_a_file_that_it_reads_changes(tmp_path):
+def test_a_law_is_another_one_when_a_file_that_it_lists_changes(tmp_path):
     file, data = tmp_path / "law.py", tmp_path / "mu.txt"
     file.write_text(
-        f"import numpy as np\nMU = np.loadtxt({str(data)!r})\n"
-        "def friction(mu_dynamic):\n    return mu_dynamic * MU[-1]\n"
+        "from pathlib import Path\nimport numpy as np\nINPUTS = ['mu.txt']\n"
+        "def mu(factor=np.loadtxt(Path(__file__).with_name('mu.txt'))[-1]):\n    return factor\n"
+        "def friction(mu_dynamic):\n    return mu_dynamic * mu()\n"
     )
     names = []
     for last in (1.0, 1.0, 1.5):
         np.savetxt(data, [*np.ones(2000), last])
         names.append(LawFile.read(file).name)
     assert names[0] == names[1] != names[2]
+    data.unlink()
+    file.write_text("INPUTS = ['mu.txt']\n" + FRICTION)
+    with pytest.raises(ValueError, match=r"law.py: INPUTS must be a list of files: .*mu.txt"):
+        LawFile.read(file)
+
+
+def test_a_law_may_be_compiled_already_and_its_numbers_and_units_be_of_any_kind(tmp_path):
+    """Numbers of NumPy, the micro sign and the Greek letter, and functions for numba."""
+    head = "import numpy as np\nCONSTANTS = {'\u00b5_0': (np.float32(0.5), '\u03bcm')}\n"
+    body = "def friction(\u00b5_0, mu_dynamic):\n    return mu_dynamic + \u00b5_0\n"
+    plain, compiled = tmp_path / "plain.py", tmp_path / "compiled.py"
+    plain.write_text(head + body, encoding="utf-8")
+    compiled.write_text(f"{head}from numba import njit\n@njit\n{body}", encoding="utf-8")
+    laws = [LawFile.read(file) for file in (plain, compiled)]
+    assert [law.units for law in laws] == 2 * [{"\u03bc_0": "\u00b5m"}]
+    assert laws[0].vary({"\u00b5_0": 0.25}).constants == {"\u03bc_0": 0.25}
+    runs = [one_block(replace(PAPER, law=law), 2e-5, 2e-8) for law in laws]
+    np.testing.assert_array_equal(runs[0].force, runs[1].force)

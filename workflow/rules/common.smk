@@ -13,15 +13,14 @@ from springblock.cli import sentence
 from springblock.provenance import PLAN, digest, planned
 from springblock.study import configuration as study
 from springblock.study.plan import Plan
-from springblock.study.written import LOADER, check_file
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
-    SCHEMA = study.with_constants(yaml.load(file, LOADER))
+    SCHEMA = study.with_constants(yaml.load(file, study.LOADER))
 
 # Snakemake has not loaded the defaults for a module with `config`, or in another folder.
 if workflow.modifier.skip_configfile or not Path(DEFAULTS).exists():
     with open(workflow.source_path(f"../../{DEFAULTS}")) as file:
-        given, config = config, yaml.load(file, LOADER)
+        given, config = config, yaml.load(file, study.LOADER)
     update_config(config, given)
 
 
@@ -34,7 +33,7 @@ def checked(step, *given):
 
 
 for file in workflow.configfiles if workflow.is_main_process else []:
-    checked(check_file, Path(file))
+    checked(study.refuse_repeated_keys, Path(file))
 config = checked(study.completed, config)
 checked(study.check, config, SCHEMA)
 PLANNED = checked(Plan, config)

@@ -12,6 +12,7 @@ from springblock.io.schemas import ASKED, SCENE, SETUP
 from springblock.model.asperities import DRAWN
 from springblock.model.direction import degrees
 from springblock.model.material import LAWS, expanded
+from springblock.model.scene import Scene
 
 #: Observables of a realisation, in the order of the tables.
 OBSERVABLES = ("static_friction", "dynamic_friction", "t_max", "t_avg", "t_first")
@@ -68,9 +69,12 @@ def _known(values: np.ndarray) -> np.ndarray:
 def ensembles(rows: Iterable[Row], by: Sequence[str] = ()) -> list[Ensemble]:
     """Group rows of the table `realisations` by scene and constants, or by the names `by` only.
 
-    Repeated realisations count once. An unknown name in `by` is a ValueError.
+    Repeated realisations count once. Different ones with the same names and seed, and an unknown
+    name in `by`, are a ValueError.
     """
-    once = {(*_names(row).items(), row["seed"]): row for row in rows}
+    once: dict[tuple[object, ...], Row] = {}
+    for row in rows:
+        _refuse_other(once.setdefault((*_names(row).items(), row["seed"]), row), row)
     found: dict[tuple[object, ...], Ensemble] = {}
     for row in sorted(once.values(), key=lambda row: row["seed"]):
         every = _names(row)
@@ -82,6 +86,17 @@ def ensembles(rows: Iterable[Row], by: Sequence[str] = ()) -> list[Ensemble]:
     members = list(found.values())
     apart = telling(each.names for each in members)
     return sorted(members, key=lambda each: [_order(name, each.names.get(name)) for name in apart])
+
+
+def _refuse_other(first: Row, row: Row) -> None:
+    """Refuse a run that differs from the first of its names and seed."""
+    for name in (*OBSERVABLES, "steps"):
+        one, other = first[name], row[name]
+        if one != other and not (one != one and other != other):  # NaN
+            raise ValueError(
+                f"two runs of {Scene.from_row(row)}, seed {row['seed']}, differ: {name} is {one!r} "
+                f"and {other!r}; leave out one file. A law may not draw random numbers"
+            )
 
 
 def _order(name: str, value: object) -> tuple[float, str]:

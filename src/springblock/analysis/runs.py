@@ -1,5 +1,6 @@
 """Ensembles in Python: `ensemble`, and the runs that it returns."""
 
+from collections.abc import Callable
 from functools import partial
 from operator import itemgetter
 from typing import TYPE_CHECKING, Any
@@ -10,6 +11,7 @@ from tqdm import tqdm
 from springblock.analysis.ensembles import OBSERVABLES, Ensemble, mean
 from springblock.analysis.statistics import Interval, number
 from springblock.model.notebook import Shown
+from springblock.model.numbers import check_whole
 from springblock.model.pattern import Pattern
 from springblock.model.surface import Surface
 from springblock.simulation.prelude import compute_prelude
@@ -61,18 +63,28 @@ def ensemble(
     setup, direction
         As in `simulate`.
     seeds : int
-        Number of realisations.
+        Number of realisations, at least one.
     jobs : int
-        Cores to use.
+        Cores to use, at least one.
     **options
         `duration` and `snapshot_times`, as in `simulate`.
     """
     begun = compute_prelude(contact, setup, direction)
     how: dict[str, Any] = {"prelude": begun, "progress": False} | options
 
-    def run(seed: int) -> tuple[int, Realisation]:
-        return seed, simulate(Surface.draw(contact, seed, setup.material), setup, direction, **how)
+    def run(seed: int) -> Realisation:
+        return simulate(Surface.draw(contact, seed, setup.material), setup, direction, **how)
 
-    done = in_threads([partial(run, seed) for seed in range(seeds)], jobs)
+    return realisations(run, seeds, jobs)
+
+
+def realisations(run: Callable[[int], Realisation], seeds: int, jobs: int) -> Runs:
+    """Return what `run` returns for the seeds 0, 1, ..., computed on several cores."""
+
+    def numbered(seed: int) -> tuple[int, Realisation]:
+        return seed, run(seed)
+
+    tasks = [partial(numbered, seed) for seed in range(check_whole("seeds", seeds))]
+    done = in_threads(tasks, check_whole("jobs", jobs))
     counted = tqdm(done, total=seeds, unit=" runs", disable=None, delay=10.0)  # on a terminal
     return Runs(run for _, run in sorted(counted, key=itemgetter(0)))

@@ -71,26 +71,7 @@ def sentence(error: Exception) -> str:
     return f"{command}: {error!r}; SPRINGBLOCK_TRACEBACK=1 shows where this happened"
 
 
-class StrictGroup(click.Group):
-    """Commands that refuse an option given twice, of which click would use the last value."""
-
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        name, command, words = super().resolve_command(ctx, args)
-        if command is not None and not ctx.resilient_parsing:
-            inner = click.Context(command, ctx, name)
-            given, _, order = command.make_parser(inner).parse_args(words.copy())
-            for option in order:
-                values = (
-                    given[str(option.name)] if option.multiple else order.count(option) * [None]
-                )
-                if option.param_type_name == "option" and len(set(values)) < len(values):
-                    raise click.BadParameter("given twice; give it once", inner, option)
-        return name, command, words
-
-
-class _LazyGroup(StrictGroup):
+class _LazyGroup(click.Group):
     """Commands imported when they are called, whose errors and interruption end in one line."""
 
     def invoke(self, ctx: click.Context) -> object:

@@ -8,7 +8,6 @@ from typing import Any
 
 import click
 
-from springblock.cli import StrictGroup
 from springblock.cli.options import INPUT, PICTURE, load_as, scene_options, with_options
 from springblock.io.records import Record, read_records
 from springblock.plotting import drawing
@@ -85,7 +84,6 @@ def _command(name: str, declared: Declaration) -> click.Command:
 
 @click.group(
     "figure",
-    cls=StrictGroup,
     commands=[_command(*item) for item in FIGURES.items()],
     subcommand_metavar="NAME [INPUTS]... --output FILE",
 )

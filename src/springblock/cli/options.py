@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import click
+import numpy as np
 
 from springblock.files import check_output
 from springblock.model.blockmap import BlockMap
@@ -71,6 +72,22 @@ def by_name(pairs: tuple[str, ...]) -> dict[str, str]:
 def name_value_pairs(pairs: tuple[str, ...]) -> Varied:
     """Read constants from their options."""
     return in_order(by_name(pairs))
+
+
+def value_lists(pairs: tuple[str, ...]) -> dict[str, list[Any]]:
+    """Read names with several values each: A,B,C, or FIRST:LAST:COUNT, evenly spaced."""
+    found: dict[str, list[Any]] = {}
+    for name, text in by_name(pairs).items():
+        ends = [part.split(":") for part in text.split(",")]
+        values = [each for end in ends for each in (_spaced(*end) if len(end) == 3 else end)]
+        is_length = name.startswith("n_") and name != "n_s"  # that may be a multiple of n_p
+        found[name] = [int(each) for each in values] if is_length else values
+    return found
+
+
+def _spaced(first: str, last: str, count: str) -> list[str]:
+    """Return numbers from `first` to `last`, as text."""
+    return [f"{each:.12g}" for each in np.linspace(float(first), float(last), int(count))]
 
 
 #: Options of a surface, without those that a sweep varies.

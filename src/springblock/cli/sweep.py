@@ -1,94 +1,38 @@
-"""springblock sweep: ensembles for several constants and directions, without Snakemake."""
+"""springblock sweep: ensembles for several constants, lengths and directions, without Snakemake."""
 
 from dataclasses import replace
 from functools import partial
 from itertools import product
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import click
+import pyarrow as pa
 from tqdm import tqdm
 
+from springblock.analysis.runs import realisations
 from springblock.cli.options import (
     SURFACE,
-    by_name,
-    code_version,
     defaulted,
     given,
     scene_of,
+    value_lists,
     with_options,
 )
-from springblock.cli.simulate import SETUP, batch_table, setup_of
-from springblock.io.identity import identity, metadata
-from springblock.io.parquet import load, origin_of, read, write
-from springblock.io.rows import Row
+from springblock.cli.simulate import SETUP, setup_of
+from springblock.io.identity import identity
+from springblock.io.parquet import rows_to_table, write
 from springblock.io.schemas import SUMMARY
 from springblock.model.direction import normalised
 from springblock.model.material import expanded
-from springblock.model.scene import COLUMNS, Scene, Varied, in_order
+from springblock.model.scene import COLUMNS, gap_of, grid_of, in_order
 from springblock.plotting import sweep as plot
 from springblock.plotting.lines import axes, lines
 from springblock.plotting.style import save
+from springblock.provenance import made_by
 from springblock.simulation.scenes import columns_of, prelude_of, realise
-from springblock.simulation.setup import Setup
-from springblock.simulation.threads import in_threads
 
-_BATCH = 5  #: seeds of one job
 _DRAWN = ("static_friction", "t_max", "t_avg")  #: observables of the figures
-
-
-class Job(NamedTuple):
-    """Realisations of one scene with some seeds."""
-
-    scene: Scene
-    setup: Setup
-    seeds: range
-    output: Path  #: folder of the sweep
-    duration: float | None  #: s
-
-    @property
-    def file(self) -> Path:
-        """Return the file of its realisations."""
-        name = f"seeds-{self.seeds[0]}-{self.seeds[-1]}.parquet"
-        return self.output / "realisations" / self.scene.folder / name
-
-    @property
-    def identity(self) -> dict[str, Any]:
-        """Return the identity of its realisations."""
-        return identity(self.scene, self.setup, self.duration)
-
-    @property
-    def metadata(self) -> dict[str, str]:
-        """Return the metadata of the file: code and configuration."""
-        return metadata(self.identity, code_version("simulate"))
-
-    @property
-    def is_done(self) -> bool:
-        """Whether the file exists; raise ValueError if it has other runs."""
-        if not self.file.exists():
-            return False
-        if not self.metadata.items() <= origin_of(load(self.file, [])).items():
-            other = "runs with other constants or code"
-            raise ValueError(f"{self.file} has {other}; choose another folder")
-        return True
-
-    def run(self) -> tuple["Job", list[Row]]:
-        """Simulate the seeds, and return their rows."""
-        scene, rows, begun = self.scene, list[Row](), prelude_of(self.scene, self.setup)
-        how = {"prelude": begun, "duration": self.duration, "progress": False}
-        for seed in self.seeds:
-            run = realise(scene, self.setup, seed, **how)
-            rows.append(self.identity | columns_of(run, scene, seed))
-        return self, rows
-
-
-def _varied(pairs: tuple[str, ...]) -> list[Varied]:
-    """Return every combination of constants with several values each."""
-    lists = {name: text.split(",") for name, text in by_name(pairs).items()}
-    values = product(*lists.values())
-    return [in_order(dict(zip(lists, each, strict=True))) for each in values]
-
-
 _SWEPT = [
     defaulted(
         "--direction",
@@ -100,15 +44,12 @@ _SWEPT = [
     click.option(
         "--vary",
         multiple=True,
-        callback=given(_varied),
-        help="Constant with its values: slider_velocity=5e-4,1e-3. Can be repeated.",
+        callback=given(value_lists),
+        help="Constant or length with its values, n_p=2,4,8, or with the ends and the number of "
+        "evenly spaced ones, step=5e-9:2e-8:4. Can be repeated.",
     ),
-    defaulted(
-        "--seeds", type=click.IntRange(1, 10**6), default=10, help="Realisations of each ensemble."
-    ),
-    click.option(
-        "--duration", type=float, help="Simulated time, s; by default until after the force peak."
-    ),
+    defaulted("--seeds", type=click.IntRange(1), default=10, help="Realisations of each ensemble."),
+    click.option("--duration", type=float, help="Simulated time, s; as for `simulate`."),
     defaulted("--jobs", type=click.IntRange(1), default=1, help="Cores to use."),
     click.option(
         "--output",
@@ -123,52 +64,43 @@ _SWEPT = [
 @partial(with_options, [*SURFACE, *_SWEPT, *SETUP])
 def sweep(
     directions: list[str],
-    vary: list[Varied],
+    vary: dict[str, list[Any]],
     seeds: int,
     duration: float | None,
     jobs: int,
     output: Path,
     **options: Any,
 ) -> None:
-    """Simulate one surface for several constants and directions.
+    """Simulate one surface for several constants, lengths and directions.
 
-    The output folder receives the runs, the table realisations.parquet, and a figure against each
-    constant with several values. Table and figures cover the runs of this command only; runs that
-    are already in the folder are not repeated.
+    The output folder receives the table realisations.parquet, and a figure against each quantity
+    with several values.
     """
-    usual, surface = setup_of(options), scene_of(options, direction="x", varied=())
-    scenes = [
-        replace(surface, direction=direction, varied=_own(varied, usual))
-        for varied, direction in product(vary, directions)
-    ]
-    parts = [range(first, min(first + _BATCH, seeds)) for first in range(0, seeds, _BATCH)]
+    usual, scenes = setup_of(options), []
+    for each, direction in product(grid_of(vary), directions):
+        size = {name: value for name, value in each.items() if name in options}
+        size["n_s"] = gap_of(size.get("n_s", options["n_s"]), size.get("n_p", options["n_p"]))
+        known = expanded(usual.constants)  # which a scene does not repeat
+        constants = in_order({name: each[name] for name in each.keys() - size.keys()})
+        own = [(name, value) for name, value in constants if value != known.get(name)]
+        scenes.append(scene_of({**options, **size}, direction=direction, varied=tuple(own)))
     setups = {scene: usual.vary(dict(scene.varied)) for scene in scenes}
     interval = min(setup.interval for setup in setups.values())  # as in a study, one for all
-    work = [
-        Job(scene, replace(setups[scene], sample_interval=interval), part, output, duration)
-        for scene, part in product(setups, parts)
-    ]
-    _run([job for job in work if not job.is_done], jobs)
-    table = read([job.file for job in work], SUMMARY)
-    table = table.sort_by([(name, "ascending") for name in [*COLUMNS, "seed"]])
-    made_by = {"code_version": work[0].metadata["code_version"]}
-    write(table, output / "realisations.parquet", made_by)
-    for over in axes(scenes):
+    tables = []
+    for scene, setup in tqdm(setups.items(), unit="ensemble"):
+        setup = replace(setup, sample_interval=interval)
+        how: dict[str, Any] = {
+            "prelude": prelude_of(scene, setup),
+            "duration": duration,
+            "progress": False,
+        }
+        runs = realisations(partial(realise, scene, setup, **how), seeds, jobs)
+        about = identity(scene, setup, duration)
+        rows = [about | columns_of(run, scene, seed) for seed, run in enumerate(runs)]
+        tables.append(rows_to_table(rows, SUMMARY))
+    table = pa.concat_tables(tables).sort_by([(name, "ascending") for name in [*COLUMNS, "seed"]])
+    write(table, output / "realisations.parquet", made_by("simulate"))
+    for over in axes(setups):
         found = lines(table.to_pylist(), over)
-        picture = plot.draw(found, over, _DRAWN)
-        save(picture, output / f"{over}.png", plot.caption(found, over))
+        save(plot.draw(found, over, _DRAWN), output / f"{over}.png", plot.caption(found, over))
     click.echo(f"springblock table {output} shows the means, and with --changes how they change")
-
-
-def _own(varied: Varied, usual: Setup) -> Varied:
-    """Return constants of a scene without those that all scenes have."""
-    known = expanded(usual.constants)
-    return tuple((name, value) for name, value in varied if value != known.get(name))
-
-
-def _run(work: list[Job], jobs: int) -> None:
-    """Run all jobs in parallel, with a count of realisations, and write their files."""
-    with tqdm(total=sum(len(job.seeds) for job in work), unit="realisation") as bar:
-        for job, rows in in_threads([job.run for job in work], jobs):
-            write(batch_table(rows), job.file, job.metadata)
-            bar.update(len(rows))

@@ -73,7 +73,7 @@ def _array(values: Sequence[Any] | NDArray[Any], kind: pa.DataType) -> pa.Array:
 def load(
     path: Path, columns: Sequence[str] | None = None, optional: Sequence[str] = ()
 ) -> pa.Table:
-    """Read a file that `write` has written: all its columns, or those given.
+    """Read a file that `write` or pandas has written: all its columns, or those given.
 
     Of `optional`, those that the file has are added to the columns given.
 
@@ -95,8 +95,9 @@ def load(
 
 
 def origin_of(table: pa.Table) -> dict[str, str]:
-    """Return the metadata of a table as text."""
-    return {key.decode(): value.decode() for key, value in (table.schema.metadata or {}).items()}
+    """Return the metadata of a table as text, without those that pandas adds."""
+    every = (table.schema.metadata or {}).items()
+    return {key.decode(): value.decode() for key, value in every if key != b"pandas"}
 
 
 def refuse_other_study(file: Path, table: pa.Table) -> None:
@@ -126,8 +127,9 @@ def read(paths: Iterable[Path], schema: pa.Schema, optional: pa.Schema = _NONE) 
 
 def refuse_mixed_code(tables: Iterable[tuple[Path, pa.Table]]) -> None:
     """Refuse tables, given with their files, that were made by different code."""
-    versions = ((origin_of(table).get("code_version", ""), path) for path, table in tables)
-    known = {version.rpartition("+")[2]: path for version, path in versions}
+    versions = ((origin_of(table).get("code_version"), path) for path, table in tables)
+    # a table that was filtered with pandas has none
+    known = {version.rpartition("+")[2]: path for version, path in versions if version}
     if len(known) > 1:
         (one, first), (other, second), *_ = known.items()
         raise ValueError(

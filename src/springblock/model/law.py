@@ -1,27 +1,22 @@
 """Laws of friction read from files: see `docs/howto.md`, "A law of your own"."""
 
-import ast
 import hashlib
 import inspect
 import json
-import math
 import re
-import sys
 import tokenize
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
-from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from typing import Any
+from unicodedata import normalize
 
-import numpy as np
+from springblock.model.numbers import is_finite
 
 #: Arguments that `friction` and `update` may have besides constants and state variables.
 _OF_FRICTION = ("mu_static", "mu_dynamic", "speed")
 _OF_UPDATE = ("speed", "step")
-#: Packages, besides the standard library, that a law may import, and functions that run other code.
-_IMPORTED, _RUNNERS = {"numba", "numpy", "scipy"}, {"exec", "eval", "__import__"}
 #: Speeds in m/s at which a law is evaluated before a run.
 _TRIED = (0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1.0)
 
@@ -37,9 +32,8 @@ class LawFile:
     `mu_dynamic` (of the block) and `speed` (m/s) in `friction`, `speed` (mean of the step, m/s) and
     `step` (s) in `update`, and constants and state variables in both.
 
-    The name contains a digest of the file and of the values of its global names, which it may have
-    read from other files: if one of them changes, it is a different law. Code comes from this file
-    alone, and from packages of `_IMPORTED` and the standard library.
+    The name contains a digest of the file and of those that it lists in `INPUTS`, by paths from its
+    own folder: if one of them changes, it is a different law.
     """
 
     name: str  #: name of the file and eight digits, as ageing-1a2b3c4d
@@ -63,20 +57,26 @@ class LawFile:
                 source = text.read()
         except FileNotFoundError:
             raise ValueError(f"{file} does not exist") from None
-        except (LookupError, OSError, SyntaxError, UnicodeDecodeError) as error:
+        except (OSError, SyntaxError, UnicodeDecodeError) as error:
             raise ValueError(f"{file} cannot be read: {error}") from None
         stem = re.sub(r"[^\w.-]", "_", file.stem)
         law = cls(stem, file=file, source=source)
         law._check_definitions()
-        with np.printoptions(threshold=sys.maxsize):
-            read = repr({name: each for name, each in law._module.items() if _is_data(name, each)})
-        digest = hashlib.sha256(f"{source}{read}".encode()).hexdigest()[:8]
-        law = replace(law, name=f"{stem}-{digest}")
-        units = {
-            name: "" if unit == "1" else unit
-            for name, (_, unit) in law._module.get("CONSTANTS", {}).items()
-        }
-        return replace(law, units=units).vary(constants)
+        name = f"{stem}-{law._digest()}"
+        given = law._module["CONSTANTS"].items()
+        # the Greek letter looks like the micro sign
+        units = {key: "" if unit == "1" else unit.replace("μ", "µ") for key, (_, unit) in given}
+        return replace(law, name=name, units=units).vary(constants)
+
+    def _digest(self) -> str:
+        """Return eight digits of the source, and of the files that it lists."""
+        whole = hashlib.sha256(self.source.encode())
+        try:
+            for each in self._module.get("INPUTS", []):
+                whole.update(Path(str(self.file)).with_name(each).read_bytes())
+        except (OSError, TypeError, ValueError) as error:
+            raise ValueError(f"{self.file}: INPUTS must be a list of files: {error}") from None
+        return whole.hexdigest()[:8]
 
     @classmethod
     def named(cls, text: str) -> "LawFile | None":
@@ -97,28 +97,29 @@ class LawFile:
     def vary(self, constants: Mapping[str, Any]) -> "LawFile":
         """Return the law with other values of its constants."""
         given = dict(self.given)
-        for name, value in constants.items():
+        for name, value in {normalize("NFKC", key): constants[key] for key in constants}.items():
             if name not in self.constants:
                 raise ValueError(
                     f"{self.file}: unknown constant {name!r}; choose from "
                     f"{', '.join(self.constants) or 'none'}"
                 )
-            if not _is_number(value):
+            if not is_finite(value):
                 raise ValueError(f"{name} must be a finite number, not {value!r}")
             given[name] = float(value)
         return replace(self, given=tuple(sorted(given.items())))
 
     def run(self) -> dict[str, Any]:
         """Run the file and return its definitions, by name."""
-        module: dict[str, Any] = {}
+        module: dict[str, Any] = {"__file__": str(self.file)}
         try:
-            program = ast.parse(self.source)
-            if not (reason := _foreign(program) or _twice(program) or _endless(program)):
-                exec(compile(program, str(self.file), "exec"), module)
+            exec(compile(self.source, str(self.file), "exec"), module)
         except (Exception, SystemExit) as error:
-            reason = repr(error)
-        if reason:
-            raise ValueError(f"{self.file} cannot be run: {reason}")
+            raise ValueError(f"{self.file} cannot be run: {error!r}") from None
+        for name in ("CONSTANTS", "STATE"):  # in the form of Python's names of arguments
+            table = module.get(name, {})
+            if not isinstance(table, dict):
+                raise ValueError(f"{self.file}: {name} must be a dictionary")
+            module[name] = {normalize("NFKC", str(key)): value for key, value in table.items()}
         return module
 
     @cached_property
@@ -137,6 +138,7 @@ class LawFile:
 
     def _function(self, name: str) -> Callable[..., Any]:
         function = self._module.get(name)
+        function = getattr(function, "py_func", function)  # of a function that numba compiles
         if not inspect.isfunction(function):
             raise ValueError(f"{self.file} must define the function {name}")
         return function
@@ -144,13 +146,13 @@ class LawFile:
     @property
     def constants(self) -> dict[str, float]:
         """Values of its constants, by name."""
-        in_file = self._module.get("CONSTANTS", {}) if self.source else {}
+        in_file = self._module["CONSTANTS"] if self.source else {}
         return {name: float(value) for name, (value, _) in in_file.items()} | dict(self.given)
 
     @property
     def initial(self) -> dict[str, float]:
         """State of a block that detaches, by name."""
-        constants, state = self.constants, self._module.get("STATE", {})
+        constants, state = self.constants, self._module["STATE"]
         return {name: float(constants.get(given, given)) for name, given in state.items()}
 
     def arguments(self, name: str) -> list[str]:
@@ -159,17 +161,14 @@ class LawFile:
 
     def _check_definitions(self) -> None:
         """Refuse a file that does not define a law."""
-        constants, state = (self._module.get(table, {}) for table in ("CONSTANTS", "STATE"))
-        for name, table in {"CONSTANTS": constants, "STATE": state}.items():
-            if not isinstance(table, dict):
-                raise ValueError(f"{self.file}: {name} must be a dictionary")
+        constants, state = self._module["CONSTANTS"], self._module["STATE"]
         for name, given in constants.items():
-            if not (isinstance(given, tuple) and len(given) == 2 and _is_number(given[0])):
+            if not (isinstance(given, tuple) and len(given) == 2 and is_finite(given[0])):
                 raise ValueError(
                     f"{self.file}: CONSTANTS[{name!r}] must be (number, unit), not {given!r}"
                 )
         for name, given in state.items():
-            if not (_is_number(given) or given in constants):
+            if not (is_finite(given) or given in constants):
                 raise ValueError(
                     f"{self.file}: STATE[{name!r}] must be a number or the name of a constant, "
                     f"not {given!r}"
@@ -178,14 +177,13 @@ class LawFile:
         for name in own:
             if name in (*_OF_FRICTION, *_OF_UPDATE) or own.count(name) > 1:
                 raise ValueError(f"{self.file}: the name {name!r} has two meanings; rename one")
-        for function, more in {"friction": _OF_FRICTION, "update": _OF_UPDATE}.items():
-            if function == "update" and not state:
-                continue
+        known = {"friction": [*_OF_FRICTION, *own], "update": [*_OF_UPDATE, *own]}
+        for function in known if state else ["friction"]:
             for name in self.arguments(function):
-                if name not in (*own, *more):
+                if name not in known[function]:
                     raise ValueError(
                         f"{self.file}: {function} has the unknown argument {name!r}; choose from "
-                        f"{', '.join([*more, *own])}"
+                        f"{', '.join(known[function])}"
                     )
 
     def check(self, mu_static: float, mu_dynamic: float, step: float, *where: float) -> None:
@@ -197,14 +195,14 @@ class LawFile:
         for speed in where[:1] or _TRIED:
             at = {**known, "speed": speed}
             mu = self._tried("friction", at)
-            if not (_is_number(mu) and mu >= 0.0):
+            if not (is_finite(mu) and mu >= 0.0):
                 raise ValueError(
                     f"{self.file}: friction must return one number, finite and not negative, "
                     f"not {mu!r}{self._at(at)}"
                 )
             new = self._tried("update", at) if self.initial else ()
             after = new if isinstance(new, tuple) else (new,)
-            if len(after) != len(self.initial) or not all(map(_is_number, after)):
+            if len(after) != len(self.initial) or not all(map(is_finite, after)):
                 raise ValueError(
                     f"{self.file}: update must return {len(self.initial)} finite numbers, "
                     f"not {new!r}{self._at(at)}"
@@ -217,60 +215,7 @@ class LawFile:
             raise ValueError(f"{self.file}: {name} fails{self._at(known)}: {error!r}") from None
 
     def _at(self, known: Mapping[str, float]) -> str:
+        """Return where a law was evaluated, in words."""
         own = ", ".join(f"{name} = {known[name]}" for name in (*self.constants, *self.initial))
-        return f" at {known['speed']} m/s" + (f" with {own}" if own else "")
-
-
-def _foreign(program: ast.Module) -> str | None:
-    """Return the use of code from elsewhere, which the digest of the file would not cover."""
-    nodes = list(ast.walk(program))
-    used = [each.name for node in nodes if isinstance(node, ast.Import) for each in node.names]
-    used += [node.module or "." for node in nodes if isinstance(node, ast.ImportFrom)]
-    used += [node.id for node in nodes if isinstance(node, ast.Name) and node.id in _RUNNERS]
-    for name in used:
-        if name.partition(".")[0] not in _IMPORTED | sys.stdlib_module_names - {"importlib"}:
-            packages = ", ".join(sorted(_IMPORTED))
-            return f"it uses {name}; import only the standard library and {packages}"
-    return None
-
-
-def _twice(program: ast.Module) -> str | None:
-    """Return a name that is defined twice, of which Python would keep the last definition."""
-    functions = [part.name for part in program.body if isinstance(part, ast.FunctionDef)]
-    tables = [node for node in ast.walk(program) if isinstance(node, ast.Dict)]
-    keys = [[ast.unparse(key) for key in table.keys if key] for table in tables]
-    for names in (functions, *keys):
-        if len(set(names)) < len(names):
-            return f"{max(names, key=names.count)} is defined twice; remove one"
-    return None
-
-
-def _endless(program: ast.Module) -> str | None:
-    """Return what may never end: a compiled function cannot be interrupted.
-
-    What a file does under a condition, as in `if __name__ == "__main__"`, is left to it.
-    """
-    calls: dict[str, set[str]] = {}
-    for part in program.body:
-        nodes = [] if isinstance(part, ast.If) else list(ast.walk(part))
-        if any(isinstance(node, ast.While) for node in nodes):
-            return "a while loop may never end; use `for`, `range` and `break`"
-        called = [node.func for node in nodes if isinstance(node, ast.Call)]
-        if isinstance(part, ast.FunctionDef):
-            calls[part.name] = {each.id for each in called if isinstance(each, ast.Name)}
-    try:
-        TopologicalSorter(calls).prepare()
-    except CycleError as error:
-        return f"{' calls '.join(error.args[1])}, which may never end"
-    return None
-
-
-def _is_data(name: str, value: Any) -> bool:
-    """Return whether a global name has a value that a compiled function may use."""
-    plain = (bool, int, float, complex, str, tuple, list, dict, np.generic, np.ndarray)
-    return not name.startswith("__") and isinstance(value, plain)
-
-
-def _is_number(value: Any) -> bool:
-    """Return whether a value is a finite real number, of Python or NumPy."""
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+        where = f"{known['speed']} m/s" if known["speed"] else "rest (speed = 0)"
+        return f" at {where}" + (f" with {own}" if own else "")

@@ -1,6 +1,7 @@
 """Arrays of numbers, and checks of numbers given by users."""
 
 import math
+import reprlib
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,16 @@ def as_array(name: str, values: Any) -> np.ma.MaskedArray[Any, Any]:
     return array
 
 
+def is_finite(value: Any) -> bool:
+    """Return whether a value is a real number, of Python or NumPy, that is finite as a float."""
+    if isinstance(value, bool) or not isinstance(value, REAL):
+        return False
+    try:
+        return math.isfinite(value)
+    except OverflowError:  # a whole number of more than 308 digits
+        return False
+
+
 def check_whole(name: str, value: Any, least: int = 1) -> int:
     """Return a whole number as int; refuse other types and numbers below `least`."""
     if isinstance(value, bool) or not isinstance(value, int | np.integer):
@@ -38,7 +49,7 @@ def check_real(name: str, value: Any, may_vanish: bool = False) -> float:
     """
     if isinstance(value, bool) or not isinstance(value, REAL):
         raise TypeError(f"{name} must be a number, not {value!r}")
-    if not (math.isfinite(value) and (value > 0.0 or (may_vanish and value == 0.0))):
+    if not (is_finite(value) and (value > 0.0 or (may_vanish and value == 0.0))):
         allowed = "zero or positive" if may_vanish else "positive"
-        raise ValueError(f"{name} must be finite and {allowed}, not {value!r}")
+        raise ValueError(f"{name} must be finite and {allowed}, not {reprlib.repr(value)}")
     return float(value)

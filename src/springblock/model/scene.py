@@ -1,7 +1,8 @@
 """Scenes: surface, sliding direction and constants that a study varies besides the seed."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
+from itertools import product
 from pathlib import Path
 from shlex import quote
 from typing import Any
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 from springblock.model.blockmap import BlockMap
 from springblock.model.direction import normalised
 from springblock.model.law import LawFile
-from springblock.model.material import Material, as_law
+from springblock.model.material import HEALING, LAWS, Material, as_law
 from springblock.model.pattern import Pattern
 from springblock.model.surface import as_coefficients
 
@@ -239,6 +240,34 @@ class Scene:
         maps["law"] = dict(self.varied).get("law")
         files = {key: getattr(each, "file", None) for key, each in maps.items()}
         return {key: file for key, file in files.items() if file}
+
+
+def gap_of(given: int | str, n_p: int) -> int:
+    """Read n_s, possibly as a multiple or a fraction of n_p: "2n_p", "n_p/3"."""
+    if not (isinstance(given, str) and "n_p" in given):
+        return int(given)
+    times, parts = given.split("n_p")
+    return int(times or 1) * n_p // int(parts.removeprefix("/") or 1)
+
+
+def grid_of(lists: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
+    """Yield every combination of the values of constants, by name.
+
+    Where the law is one of them, constants that it does not use have no effect: those of other
+    built-in laws are zero, and those of other files are left out.
+    """
+    laws = [as_law(law) for law in lists.get("law", ())]
+    own = {str(law): law.constants.keys() for law in laws if isinstance(law, LawFile)}
+    for values in product(*lists.values()):
+        constants = dict(zip(lists, values, strict=True))
+        if "law" in constants:
+            constants["law"] = law = as_law(constants["law"])
+            others = set().union(*own.values()) - own.get(str(law), set())
+            constants = {name: constants[name] for name in constants if name not in others}
+            constants |= {name: 0.0 for other, name in LAWS.items() if name and other != law}
+            if law != "slip_weakening":
+                constants["healing"] = HEALING[0]
+        yield constants
 
 
 def in_order(constants: Mapping[str, Any]) -> Varied:

@@ -38,7 +38,10 @@ def _whole_multiple(name: str, value: float, unit_name: str, unit: float) -> int
     ratio = value / unit
     count = round(ratio) if math.isfinite(ratio) else 0
     if count < 1 or abs(ratio - count) > 1e-6 * count:
-        raise ValueError(f"{name} must be a multiple of {unit_name} = {unit!r} s, not {value!r} s")
+        near = f", such as {unit * max(1, math.floor(ratio)):.10g} s" if ratio < 1e6 else ""
+        raise ValueError(
+            f"{name} must be a multiple of {unit_name} = {unit!r} s{near}, not {value!r} s"
+        )
     return count
 
 
@@ -53,8 +56,8 @@ class Setup:
     step : s
         Integration step h.
     sample_interval : s, or None
-        Time between samples of the force; a multiple of the step. None: 2e-7 s, or as many steps as
-        fit into a 60th of the loading time if that is shorter, but at least one.
+        Time between samples of the force; a multiple of the step. None: as many steps as fit into
+        2e-7 s, and into a 60th of the loading time, but at least one.
 
     Raises
     ------
@@ -105,9 +108,11 @@ class Setup:
         """Time between samples of the force, s, given or chosen."""
         if self.sample_interval is not None:
             return self.sample_interval
-        if self.longest_interval >= SAMPLE_INTERVAL:
+        rest = abs(math.remainder(SAMPLE_INTERVAL, self.step))
+        if self.longest_interval >= SAMPLE_INTERVAL and rest < 1e-6 * SAMPLE_INTERVAL:
             return SAMPLE_INTERVAL
-        return self.step * max(1, math.floor(self.longest_interval / self.step))
+        longest = min(SAMPLE_INTERVAL, self.longest_interval)
+        return self.step * max(1, math.floor(longest / self.step))
 
     @property
     def longest_interval(self) -> float:

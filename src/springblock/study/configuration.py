@@ -1,6 +1,7 @@
 """Configuration of a study: checks, and expansion into scenes and batches of seeds."""
 
 import math
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from copy import deepcopy
@@ -10,23 +11,26 @@ from pathlib import Path
 from typing import Any
 
 import jsonschema
+import yaml
 
 from springblock.io.schemas import AXES
 from springblock.model.asperities import check_draws
 from springblock.model.blockmap import BlockMap, Cut
 from springblock.model.law import LawFile
 from springblock.model.material import Material, as_law
-from springblock.model.scene import LENGTHS, TEXTS, Scene, Varied
+from springblock.model.scene import LENGTHS, TEXTS, Scene, Varied, gap_of, grid_of
 from springblock.model.surface import Surface
 from springblock.simulation.setup import Setup
 from springblock.solver.integrators import INTEGRATORS
-from springblock.study.texts import check_texts
-from springblock.study.written import NUMBER
 
 Configuration = Mapping[str, Any]
 
 #: Keys of the numerical method.
 TIMES = ("integrator", "step", "sample_interval")
+#: PyYAML's reader in C is ten times as fast, where it is installed.
+LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+#: A decimal number, as text.
+_NUMBER = re.compile(r"[-+]?(?!0[0-9])([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?")
 #: Words of YAML and their values.
 _YAML_WORDS = {"true": True, "false": False, "null": None}
 #: Groups of the paper's figures, with the level of their scenes.
@@ -71,13 +75,29 @@ class Planned:
         return replace(larger, snapshot_times=times)
 
 
+def refuse_repeated_keys(file: Path) -> None:
+    """Refuse a YAML file in which a key stands twice, of which YAML would keep the last."""
+    nodes = [yaml.compose(file.read_bytes(), LOADER)]
+    for node in nodes:  # which grows
+        parts = node.value if isinstance(node, yaml.CollectionNode) else []
+        if isinstance(node, yaml.MappingNode):
+            known: dict[str, yaml.Node] = {}
+            for key, _ in parts:
+                if known.setdefault(str(key.value), key) is not key:
+                    line = f"{file}, line {key.start_mark.line + 1}"
+                    raise ValueError(f"{line}: key {key.value!r} is repeated; rename or remove it")
+            parts = [value for _, value in parts]
+        nodes += [each for each in parts if each not in nodes]
+
+
 def completed(configuration: Configuration) -> dict[str, Any]:
     """Convert numbers given as text, and append the entries of `add` to the lists they extend.
 
-    YAML reads 1e-3, without a decimal point, as text, and so does Snakemake with nested values of
-    `--config`.
+    Keys `x-...`, which hold anchors for other keys, are left out. YAML reads 1e-3, without a
+    decimal point, as text, and so does Snakemake with nested values of `--config`.
     """
-    whole = {key: _with_numbers(value, key) for key, value in configuration.items()}
+    keys = [key for key in configuration if not str(key).startswith("x-")]
+    whole = {key: _with_numbers(configuration[key], key) for key in keys}
     added = whole.pop("add", None) or {}
     if not isinstance(added, dict):
         raise ValueError(f"add must hold keys of the configuration, not {added!r}")
@@ -91,7 +111,7 @@ def _with_numbers(value: Any, key: str = "") -> Any:
         return [_with_numbers(inner) for inner in value]
     if not isinstance(value, str) or key == "results":
         return value
-    if NUMBER.fullmatch(value):
+    if _NUMBER.fullmatch(value):
         return float(value) if set(value) & set(".eE") else int(value)
     return _YAML_WORDS.get(value, value)
 
@@ -117,8 +137,12 @@ def with_constants(schema: Mapping[str, Any]) -> dict[str, Any]:
         one[each.name]["description"] = f"{said['meaning']}; {said['unit']}"
     one["integrator"] = {"enum": [*INTEGRATORS], "description": "integrator"}
     many: dict[str, Any] = {
-        name: {"type": "array", "minItems": 1, "uniqueItems": True, "items": value}
-        | {"description": f"list of values: {value['description']}"}
+        name: {
+            "description": f"value, or list of values: {value['description']}",
+            "if": {"type": "array"},
+            "then": {"minItems": 1, "uniqueItems": True, "items": value},
+            "else": value,
+        }
         for name, value in one.items()
     }
     whole = deepcopy(dict(schema))
@@ -131,7 +155,6 @@ def with_constants(schema: Mapping[str, Any]) -> dict[str, Any]:
 
 def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
     """Refuse an invalid configuration, before any computation, by a TypeError or ValueError."""
-    check_texts(configuration)
     error = jsonschema.exceptions.best_match(_Validator(schema).iter_errors(configuration))
     if error is not None:
         raise ValueError(_sentence(error))
@@ -178,11 +201,12 @@ def _check_ensemble(ensemble: Planned, setup: Setup) -> None:
     scene, seeds, times = ensemble.scene, ensemble.seeds, ensemble.snapshot_times
     Surface(scene.contact, 1.0, 1.0, scene.is_periodic)  # refuses invalid ones
     own = setup.vary(dict(scene.varied))
-    if own.interval > max(own.longest_interval, own.step):
+    advised = replace(own, sample_interval=None).interval
+    if own.interval > (1.0 + 1e-6) * max(own.longest_interval, own.step):
         raise ValueError(
             f"sample_interval = {own.interval!r} s is too long for slider_velocity = "
             f"{own.material.slider_velocity!r} m/s, since static friction would be too low; choose "
-            f"at most {own.longest_interval:.2g} s"
+            f"at most {advised:.10g} s"
         )
     if scene.is_drawn:
         check_draws(scene.shape, own.material)
@@ -285,19 +309,20 @@ def _expand(configuration: Configuration, grid: Mapping[str, Any] | None) -> Ite
         raise ValueError(f"{number} scenes are too many; choose up to {_MOST_SCENES} in a grid")
     first, duration = configuration["first_seed"], grid.get("duration")
     kept = tuple(grid.get("snapshot_times", ()))
-    n_p, n_s, *deeper = (grid.get(key, [0]) for key in LENGTHS)  # a flat surface has none
+    n_p, n_s, *deeper = (_listed(grid.get(key, 0)) for key in LENGTHS)  # a flat surface has none
     seeds = grid.get("seeds", 1)
     counts = seeds if isinstance(seeds, list) else [seeds] * len(n_p)
     if len(counts) != len(n_p):
         raise ValueError(f"seeds must have one number per n_p, {len(n_p)}, not {len(counts)}")
     of_mask = "mask" in grid or "topography" in grid  # which then gives N
-    n_blocks = grid.get("n_blocks", [0] if of_mask else [configuration["n_blocks"]])
-    shapes = product(n_blocks, grid.get("n_rows", [0]))
+    n_blocks = _listed(grid.get("n_blocks", 0 if of_mask else configuration["n_blocks"]))
+    shapes = product(n_blocks, _listed(grid.get("n_rows", 0)))
     pillars, varied = zip(n_p, counts, strict=True), list(_varied(configuration, grid))
+    directions = _listed(grid["direction"])
     maps = {constants: _maps(configuration, grid, constants) for constants in varied}
-    ways = product(shapes, pillars, n_s, product(*deeper), grid["direction"], varied)
+    ways = product(shapes, pillars, n_s, product(*deeper), directions, varied)
     for (n, rows), (size, count), given, rest, direction, constants in ways:
-        lengths = dict(zip(LENGTHS, (size, _gap(given, size), *rest), strict=True))
+        lengths = dict(zip(LENGTHS, (size, gap_of(given, size), *rest), strict=True))
         how = {key: grid[key] for key in ("along_3", "edges") if key in grid}
         how |= {"direction": direction, "varied": constants, "n_rows": rows}
         for own in maps[constants]:
@@ -342,21 +367,13 @@ def _listed(given: Any) -> list[Any]:
     return given if isinstance(given, list) else [given]
 
 
-def _gap(given: int | str, n_p: int) -> int:
-    """Read n_s, possibly as a multiple or a fraction of n_p: "2n_p", "n_p/3"."""
-    if not isinstance(given, str):
-        return given
-    times, parts = given.split("n_p")
-    return int(times or 1) * n_p // int(parts.removeprefix("/") or 1)
-
-
 def _varied(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[Varied]:
     """Yield each combination of the constants of a grid, without values equal to the study's."""
     law = as_law(configuration["material"].get("law", "coulomb"))
     own = law.constants if isinstance(law, LawFile) else {}
     study = {**dict(Material().items()), **own, **configuration["material"], **configuration}
-    lists = {key: grid[key] for key in ("integrator", "step") if key in grid}
-    lists |= grid.get("material", {})
-    for values in product(*lists.values()):
-        constants = dict(zip(lists, values, strict=True))
+    study["law"] = law
+    axes = {key: grid[key] for key in ("integrator", "step") if key in grid}
+    lists = {key: _listed(given) for key, given in {**axes, **grid.get("material", {})}.items()}
+    for constants in grid_of(lists):
         yield tuple((key, value) for key, value in constants.items() if value != study.get(key))
