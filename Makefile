@@ -10,7 +10,7 @@ APT_INSTALL := DEBIAN_FRONTEND=noninteractive apt-get install --yes --quiet --no
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick full docs site test browser test-slurm test-versions coverage mutants bench bench-ratios setup lock clean
+.PHONY: all quick full docs site test browser test-slurm test-versions coverage bench bench-ratios setup lock clean
 
 # The paper's figures and their errors, in four to seven minutes on two cores.
 all: setup
@@ -44,7 +44,7 @@ docs: full
 site: setup
 	$(INSTALL) --require-hashes -r $(SITE)
 	rm -rf build/pages build/site && mkdir -p build/pages
-	tar -c README.md CHANGELOG.md CONTRIBUTING.md LICENSE config docs benchmarks/verification | tar -x -C build/pages
+	tar -c README.md CHANGELOG.md CONTRIBUTING.md LICENSE config docs | tar -x -C build/pages
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet # MkDocs 1 is supported until May 2027
 
 # Style, types and tests.
@@ -96,10 +96,6 @@ coverage: setup
 	    -k "$(INTERPRETED)"
 	$(BIN)/coverage combine --quiet
 	$(BIN)/coverage report
-
-# Puts errors into copies of the code, one into each, and prints which test catches it: an hour or more.
-mutants: setup
-	$(BIN)/python tests/mutants.py
 
 # Speed of the solver, of a C loop and of LAMMPS, as one table, in two and a half minutes.
 bench: setup
