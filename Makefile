@@ -27,11 +27,9 @@ full: setup
 # Pages and pictures in docs, and the findings in README and reports, from the whole study.
 FINDINGS := src/springblock/report/findings.md
 docs: full
-	$(BIN)/springblock dictionary --output docs/tables.md
 	cp results/accuracy.md results/claims.md results/mechanism.md results/continuum.md docs
 	cp results/figures/figure_6.png results/figures/continuum_friction.png docs
 	$(BIN)/springblock make applicability results/tables/realisations.parquet --output docs/applicability.md
-	$(BIN)/python -m springblock.claims.full_study results/tables/claims.parquet
 	$(BIN)/springblock make findings results/tables/claims.parquet results/tables/realisations.parquet \
 	    results/tables/continuum.parquet results/tables/production.parquet --output $(FINDINGS)
 	sed -e '/^<!-- findings/,/^<!-- end/{/^<!--/!d;}' -e '/^<!-- findings/r $(FINDINGS)' README.md > results/README.md

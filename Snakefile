@@ -52,7 +52,6 @@ rule all:
         ]
         if config["accuracy"]
         else [],
-        rules.reference_solutions.output if config["accuracy"] and config["verification"] else [],
         MODEL_PARTS,
         MODELS,
         SENSITIVE,

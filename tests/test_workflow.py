@@ -89,7 +89,6 @@ def test_every_step_of_the_full_study_can_be_planned(study):
     steps = rules(study, *elsewhere, **FULL).keys()
     full = study.planned(*elsewhere, "--", *steps, **FULL).keys()
     further = {"mechanism", "production_table", "sweep_pressure", "sweep_scatter"}
-    further |= {"reference_solutions"}
     assert {*steps, *further, *figures.FIGURES} - {"surfaces"} <= full
     named = set(re.findall(r"`(\w+)`", (ROOT / "docs/workflow.md").read_text()))
     drawn = ("figure_", "supplement", "sweep_", "film_")

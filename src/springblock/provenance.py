@@ -34,7 +34,7 @@ STEPS: dict[str, tuple[str, ...]] = {
     "claims.md": (*_STATEMENTS, "claims", "claims/statements.toml", "pages", "pages/claims.md"),
     "report": (
         *(*_STATEMENTS, "continuum", "claims", "plotting", "report"),
-        *("claims/statements.toml", "claims/full_study.csv", "plotting/captions.toml"),
+        *("claims/statements.toml", "plotting/captions.toml"),
         *("report/*.html", "report/*.css", "report/*.js", "report/*.md"),
     ),
 }

@@ -8,11 +8,11 @@ import pyarrow as pa
 import pytest
 
 from springblock.claims import STATEMENTS
-from springblock.claims.full_study import verdicts
 from springblock.claims.rule import Evidence
 from springblock.claims.summary import values
-from springblock.claims.table import rows
+from springblock.claims.table import SCHEMA, rows
 from springblock.cli import main
+from springblock.io.parquet import rows_to_table, write
 from springblock.io.records import read_records
 from springblock.pages import rendered
 from springblock.plotting.figures import FIGURES
@@ -25,20 +25,28 @@ def test_each_statement_belongs_to_a_figure():
     assert {f"figure_{each.figure}" for each in STATEMENTS} <= FIGURES.keys()
 
 
-def test_a_figure_has_the_verdicts_of_the_full_study(picture):
-    """They lead to the study's own page of statements, if it has one."""
+@pytest.fixture
+def untested(tmp_path):
+    """The table of statements of a study without data."""
+    write(rows_to_table(rows(STATEMENTS, Evidence()), SCHEMA), tmp_path / "claims.parquet", {})
+    return tmp_path / "claims.parquet"
+
+
+def test_a_figure_has_the_verdicts_of_the_study(picture, untested):
+    """They lead to the page of statements, if there is one."""
     first = STATEMENTS[0]
-    text = page([picture(f"figure_{first.figure}.png", "a")], {})
+    figure = picture(f"figure_{first.figure}.png", "a")
+    text = page([figure, untested], {})
     _, _, after = text.partition(str(typeset(first.title)))
-    found = verdicts()[first.id]
-    assert f"holds in {found['holds']} of {found['cases']} cases" in after
+    assert "0 of 0 cases hold" in after
     assert "#claims-" not in text
+    assert "verdicts of this study" not in page([figure], {})
 
 
-def test_links_to_statements_lead_to_their_parts_of_the_page(picture, tmp_path):
+def test_links_to_statements_lead_to_their_parts_of_the_page(picture, tmp_path, untested):
     own = tmp_path / "claims.md"
     own.write_text(rendered("claims.md", **values(rows(STATEMENTS, Evidence()))))
-    text = page([own, *(picture(f"figure_{i}.png", "a") for i in range(1, 10))], {})
+    text = page([own, untested, *(picture(f"figure_{i}.png", "a") for i in range(1, 10))], {})
     links = re.findall(r'href="#(claims-\d[^"]+)"', text)
     assert len(links) >= len(STATEMENTS)
     assert all(f'id="{link}"' in text for link in links)

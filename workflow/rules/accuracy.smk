@@ -90,25 +90,10 @@ rule stability_table:
         runtime=10,
     params:
         code=code("accuracy"),
-        name="stability",
     message:
         "Running stiff and extreme cases"
     shell:
-        "springblock --code {params.code} make {params.name} --output {output:q} > {log:q} 2>&1"
-
-
-use rule stability_table as reference_solutions with:
-    output:
-        f"{RESULTS}/accuracy/reference.parquet",
-    log:
-        f"{RESULTS}/logs/reference_solutions.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/reference_solutions.tsv"
-    params:
-        code=code("accuracy"),
-        name="reference",
-    message:
-        "Computing the reference solutions again"
+        "springblock --code {params.code} make stability --output {output:q} > {log:q} 2>&1"
 
 
 rule accuracy:

@@ -34,7 +34,6 @@ COMMANDS = {
     "compare": "springblock.cli.tables:compare",
     "verify": "springblock.cli.results:verify",
     "repair": "springblock.cli.results:repair",
-    "dictionary": "springblock.cli.tables:dictionary",
     "archive": "springblock.cli.results:archive_study",
 }
 

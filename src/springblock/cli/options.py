@@ -5,6 +5,7 @@ from dataclasses import fields
 from functools import partial, wraps
 from importlib.metadata import version
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import Any
 
 import click
@@ -178,9 +179,29 @@ def code_version(step: str) -> str:
     return f"{version('springblock')}+{given}" if given else provenance.code_version(step)
 
 
+#: Where the columns of the tables of a study are declared.
+_SCHEMAS = {
+    "realisations": "io.schemas:SUMMARY",
+    "correlation": "io.schemas:CORRELATION",
+    "correlation_length": "io.schemas:CORRELATION_LENGTH",
+    "claims": "claims.table:SCHEMA",
+    "work_precision": "accuracy.work_precision:SCHEMA",
+    "production": "accuracy.production:SCHEMA",
+    "stability": "accuracy.stability:SCHEMA",
+    "mechanism": "mechanism.tables:FRICTION",
+    "mechanism_damped": "mechanism.tables:FRICTION",
+    "sensitivities": "mechanism.sensitivities:SENSITIVITIES",
+    "continuum": "continuum.cases:CELLS",
+}
+
+
+def schema_of(name: str) -> Any:
+    """Return the columns of a table of a study."""
+    return resolve_name(f"springblock.{_SCHEMAS[name]}")
+
+
 def load_as(name: str, file: Path) -> Any:
     """Read a table that must have the columns of its name."""
     from springblock.io.parquet import load
-    from springblock.report.dictionary import kinds  # loads numba
 
-    return load(file, kinds()[name][1].names)
+    return load(file, schema_of(name).names)
