@@ -96,10 +96,8 @@ def test_every_step_of_the_full_study_can_be_planned(study):
 
 
 def test_a_figure_of_surfaces_that_are_missing_stops_itself_alone(study):
-    """A dry run of another one says how long the jobs will take."""
     options = ("--config", "results=elsewhere", "figures={figure_5: {n_p: 7}}", "--")
-    said = study.run("--dry-run", *options, "figure_6", **WHOLE)
-    assert re.search(r"^These jobs take about \d+ min on \d+ cores?\.$", said, re.MULTILINE)
+    study.run("--dry-run", *options, "figure_6", **WHOLE)
     refused = study.run("--dry-run", *options, "figure_5", refused=True, **WHOLE)
     assert "figures.figure_5: no scene of pillars has n_p = 7." in refused
 

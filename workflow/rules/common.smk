@@ -134,15 +134,8 @@ def minutes(wildcards, attempt):
     return attempt * cost.minutes(*work(wildcards))
 
 
-def seconds(name, wildcards):
-    """CPU time in s that a job of this name is expected to take."""
-    if name in ("prelude", "simulate_batch"):
-        return cost.expected(*work(wildcards))
-    return cost.expected_of(name)
-
-
 if workflow.is_main_process:
     watched = events.Events(
-        workflow, config, seconds, lambda: record.contents(config, ENSEMBLE, SETUPS, NEEDED, SPARE)
+        workflow, config, lambda: record.contents(config, ENSEMBLE, SETUPS, NEEDED, SPARE)
     )
     logging.getLogger("snakemake.logging").addFilter(watched)

@@ -11,15 +11,9 @@ from springblock.study import audit
 
 
 @click.command("verify")
-@click.argument("results", type=click.Path(exists=True, path_type=Path), required=False)
+@click.argument("results", type=click.Path(exists=True, path_type=Path))
 @click.argument("other", type=click.Path(exists=True, path_type=Path), required=False)
-@click.option(
-    "--physics",
-    is_flag=True,
-    help="Simulate small ensembles, in seconds, and compare them with recorded ones, to find out "
-    "whether this processor and these packages change more than rounding.",
-)
-def verify(results: Path | None, other: Path | None, physics: bool) -> None:
+def verify(results: Path, other: Path | None) -> None:
     """Check a folder of results, or compare two to the bit.
 
     A folder is checked against the last configuration of its study, its checksums and the current
@@ -27,11 +21,7 @@ def verify(results: Path | None, other: Path | None, physics: bool) -> None:
     compare` tests differences of means. The exit status is 0 without a fault or difference, and 1
     otherwise.
     """
-    if physics == (results is not None):
-        raise click.UsageError("give either a folder or file of results, or --physics")
-    if results is None:
-        good = _has_the_same_physics()
-    elif results.is_file():
+    if results.is_file():
         if other is None or not other.is_file():
             raise ValueError(f"{results} is a file; give a second file to compare it with")
         good = _are_the_same(f"{results} and {other}", results, other)
@@ -39,21 +29,6 @@ def verify(results: Path | None, other: Path | None, physics: bool) -> None:
         good = _is_sound(results, other)
     if not good:
         raise SystemExit(1)
-
-
-def _has_the_same_physics() -> bool:
-    """Compare ensembles computed here with the recorded ones."""
-    from springblock.accuracy import consistency  # loads numba
-
-    found = list(consistency.differences(consistency.ensembles()))
-    for each in found:
-        click.echo(each)
-    apart = [each for each in found if each.is_significant]
-    click.echo(
-        f"{len(apart)} of {len(found)} means differ significantly (together, at "
-        f"{100 * consistency.LEVEL:g} %)" + ("" if apart else ": the same physics")
-    )
-    return not apart
 
 
 def _is_sound(results: Path, other: Path | None) -> bool:

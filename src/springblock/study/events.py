@@ -8,7 +8,6 @@ import time
 from collections.abc import Callable, Iterable, Mapping
 from itertools import chain
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 from snakemake.common import NOTHING_TO_BE_DONE_MSG
@@ -16,13 +15,12 @@ from snakemake.exceptions import WorkflowError
 from snakemake.settings.types import RerunTrigger
 from snakemake_interface_logger_plugins.common import LogEvent
 
-from springblock.study import cost, record
+from springblock.study import record
 
 
 class Events(logging.Filter):
     """Acts on events, also of a module of another workflow, where `onstart` is not called.
 
-    `seconds` is the CPU time that a job of a rule, by name and wildcards, is expected to take.
     `contents` has what the record keeps of the results, see `record.begin`.
     """
 
@@ -30,15 +28,13 @@ class Events(logging.Filter):
         self,
         workflow: Any,
         configuration: Mapping[str, Any],
-        seconds: Callable[[str, Any], float],
         contents: Callable[[], Mapping[str, Any]],
     ) -> None:
         super().__init__()
         self.workflow, self.configuration = workflow, configuration
         self.results = Path(configuration["results"])
-        self.seconds, self.contents = seconds, contents
+        self.contents = contents
         self.begun = time.time()
-        self.times: list[float] = []
         self.tables = 0
 
     def filter(self, record: Any) -> bool:
@@ -47,9 +43,6 @@ class Events(logging.Filter):
         try:
             if event == LogEvent.WORKFLOW_STARTED:
                 self._start()
-            elif event == LogEvent.JOB_INFO and self.workflow.dryrun:
-                wildcards = SimpleNamespace(**record.wildcards)
-                self.times.append(self.seconds(record.rule_name, wildcards))
             elif event == LogEvent.RUN_INFO or record.msg == NOTHING_TO_BE_DONE_MSG:
                 self._planned(event == LogEvent.RUN_INFO)
         except (OSError, ValueError) as error:
@@ -83,7 +76,7 @@ class Events(logging.Filter):
         return [file for file in files if rule.is_producer(file)] or [target]
 
     def _planned(self, has_jobs: bool) -> None:
-        """Record a run before its first job; say how long the jobs of a dry run will take."""
+        """Record a run before its first job."""
         self.tables += 1
         if self.workflow.touch and has_jobs:
             self._refuse("--touch does not compare them")
@@ -92,9 +85,6 @@ class Events(logging.Filter):
             if not self._repairs():
                 remembers = self.workflow.execution_settings.keep_metadata
                 record.begin(self.results, self.configuration, self.contents(), remembers)
-        elif self.tables > 1:  # a dry run prints its table twice
-            said = cost.in_words(self.times, self.workflow.cores)
-            print(f"These jobs take {said}.", file=sys.stderr)
 
     def _repairs(self) -> bool:
         """Whether the only target is `repair`, which compares with what is recorded."""
