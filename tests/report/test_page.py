@@ -104,20 +104,21 @@ def test_a_table_leaves_out_what_is_the_same_in_all_rows():
     assert shown["rows"] == [("1", ""), ("2", "0.123457")]
 
 
-def test_a_film_is_told_in_words(tmp_path):
+def test_a_film_says_when_blocks_detach(tmp_path):
     file = tmp_path / "run.parquet"
     options = ["--n-blocks", "12", "--n-p", "3", "--n-s", "3", "--first-seed", "4"]
     main(["simulate", *options, "--output", str(file)], standalone_mode=False)
     (run,) = read_records([file])
-    said = media.in_words(run)
-    assert said.startswith("N = 12, sliding direction x. Pillars n_p/n_s = 3/3 (seed 4). 36 ")
-    assert f" {1e6 * run.t_max:.1f} µs" in said
+    said = media.told(run)
+    assert said["scene"] == str(run.scene)
+    assert (said["seed"], said["blocks"]) == (4, 36)
+    assert said["detached"]["t_max"] == 1e6 * run.t_max
     early = np.where(np.arange(144).reshape(12, 12) % 7 == 0, 0.0, np.nan)  # a few, and no others
     few = np.where(run.contact, early, np.nan)
     share = 100.0 * np.isfinite(few).sum() / 36
-    assert media.in_words(replace(run, t_det=few)).endswith(f"when {share:.1f} % have detached.")
+    assert media.told(replace(run, t_det=few))["detached"]["before"] == share
     still = replace(run, t_det=np.full_like(run.t_det, np.nan))  # ends before a block detaches
-    assert "nan" not in media.in_words(still)
+    assert not media.told(still)["detached"]
 
 
 def test_means_are_those_of_ensembles_with_the_constants_of_the_study(springblock, tmp_path):

@@ -1,8 +1,7 @@
-# Figures, sweeps and films of the study, with their inputs and captions.
+# Figures, sweeps and films of the study, with their inputs.
 
 from springblock.plotting import figures
-from springblock.plotting.caption import file_name
-from springblock.plotting.declaration import having
+from springblock.plotting.declaration import file_name, having
 from springblock.plotting.lines import axes
 
 #: Groups of scenes from which figures are drawn.
@@ -62,17 +61,9 @@ def needed(figure):
 
 
 def command(figure):
-    """The command that draws a figure, without files and caption."""
+    """The command that draws a figure, without files."""
     if figure in SWEEPS:
         of = [f"--of {observable}" for observable in SWEEPS[figure].get("of", [])]
         return " ".join(["plot", "--over", SWEEPS[figure]["over"], *of])
     lengths = config["figures"].get(figure, {})
     return f"figure {figure} {FIGURES[figure].options(config['n_blocks'], lengths)}"
-
-
-def caption(figure):
-    """The caption of a figure, as an option; sweeps write their own."""
-    if figure in SWEEPS:
-        return ""
-    lengths = config["figures"].get(figure, {})
-    return f"--caption {quote(FIGURES[figure].caption_in(SHOWN, lengths, SETUP.material))}"

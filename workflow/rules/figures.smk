@@ -21,11 +21,10 @@ for figure in [*FIGURES, *SWEEPS]:
         params:
             code=code("plot"),
             command=command(figure),
-            caption=lambda wildcards, figure=figure: caption(figure),
         message:
             f"Drawing {figure}: {FIGURES[figure].title if figure in FIGURES else command(figure)}"
         shell:
-            "springblock --code {params.code} {params.command} {input:q} {params.caption} "
+            "springblock --code {params.code} {params.command} {input:q} "
             "--output {output.pdf:q} --output {output.png:q} > {log:q} 2>&1"
 
 

@@ -156,7 +156,7 @@ def sweep(
     for over in axes(scenes):
         found = lines(table.to_pylist(), over)
         picture = plot.draw(found, over, _DRAWN)
-        save(picture, output / f"{over}.png", plot.caption(found, over))
+        save(picture, output / f"{over}.png", plot.caption(found))
     click.echo(f"springblock table {output} shows the means, and with --changes how they change")
 
 
