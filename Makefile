@@ -13,7 +13,7 @@ APT_INSTALL := DEBIAN_FRONTEND=noninteractive apt-get install --yes --quiet --no
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick full docs site test browser test-slurm test-versions coverage mutants bench bench-ratios setup setup-tests lock clean
+.PHONY: all quick full docs site test browser test-slurm test-versions coverage bench bench-ratios setup setup-tests lock clean
 
 # The paper's figures and their errors, in four to seven minutes on two cores.
 all: setup
@@ -30,11 +30,9 @@ full: setup
 # Pages and pictures in docs, and the findings in README and reports, from the whole study.
 FINDINGS := src/springblock/report/findings.md
 docs: full
-	$(BIN)/springblock dictionary --output docs/tables.md
 	cp results/accuracy.md results/claims.md results/mechanism.md results/continuum.md docs
 	cp results/figures/figure_6.png results/figures/continuum_friction.png docs
 	$(BIN)/springblock make applicability results/tables/realisations.parquet --output docs/applicability.md
-	$(BIN)/python -m springblock.claims.full_study results/tables/claims.parquet
 	$(BIN)/springblock make findings results/tables/claims.parquet results/tables/realisations.parquet \
 	    results/tables/continuum.parquet results/tables/production.parquet --output $(FINDINGS)
 	sed -e '/^<!-- findings/,/^<!-- end/{/^<!--/!d;}' -e '/^<!-- findings/r $(FINDINGS)' README.md > results/README.md
@@ -47,7 +45,7 @@ docs: full
 site: setup
 	$(INSTALL) --require-hashes -r $(SITE)
 	rm -rf build/pages build/site && mkdir -p build/pages
-	tar -c README.md CHANGELOG.md CONTRIBUTING.md LICENSE config docs benchmarks/verification | tar -x -C build/pages
+	tar -c README.md CHANGELOG.md CONTRIBUTING.md LICENSE config docs | tar -x -C build/pages
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet # MkDocs 1 is supported until May 2027
 
 # Style, types and tests.
@@ -99,10 +97,6 @@ coverage: setup-tests
 	    -k "$(INTERPRETED)"
 	$(BIN)/coverage combine --quiet
 	$(BIN)/coverage report
-
-# Puts errors into copies of the code, one into each, and prints which test catches it: an hour or more.
-mutants: setup-tests
-	$(BIN)/python tests/mutants.py
 
 # Speed of the solver, of a C loop and of LAMMPS, as one table, in two and a half minutes.
 bench: setup

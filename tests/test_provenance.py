@@ -72,7 +72,7 @@ def test_formulas_and_nothing_else_change_a_digest(digest_of, old, new, is_anoth
         ("report/page.html", {"report"}),
         ("report/page.css", {"report"}),
         ("report/page.js", {"report"}),
-        ("plotting/captions.toml", {"report"}),  # figures have theirs as a parameter
+        ("plotting/captions.toml", {"plot", "report"}),
     ],
 )
 def test_a_sentence_changes_the_digest_of_its_page_alone(digest_of, name, steps):

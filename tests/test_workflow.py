@@ -82,7 +82,6 @@ def test_every_step_of_the_full_study_can_be_planned(study):
     steps = rules(study, *elsewhere, **FULL).keys()
     full = study.planned(*elsewhere, "--", *steps, **FULL).keys()
     further = {"mechanism", "production_table", "sweep_pressure", "sweep_scatter"}
-    further |= {"reference_solutions"}
     assert {*steps, *further, *figures.FIGURES} - {"surfaces"} <= full
     named = set(re.findall(r"`(\w+)`", (ROOT / "docs/workflow.md").read_text()))
     drawn = ("figure_", "supplement", "sweep_", "film_")
@@ -90,10 +89,8 @@ def test_every_step_of_the_full_study_can_be_planned(study):
 
 
 def test_a_figure_of_surfaces_that_are_missing_stops_itself_alone(study):
-    """A dry run of another one says how long the jobs will take."""
     options = ("--config", "results=elsewhere", "figures={figure_5: {n_p: 7}}", "--")
-    said = study.run("--dry-run", *options, "figure_6", **WHOLE)
-    assert re.search(r"^These jobs take about \d+ min on \d+ cores?\.$", said, re.MULTILINE)
+    study.run("--dry-run", *options, "figure_6", **WHOLE)
     refused = study.run("--dry-run", *options, "figure_5", refused=True, **WHOLE)
     assert "figures.figure_5: no scene of pillars has n_p = 7." in refused
 

@@ -27,14 +27,17 @@ STEPS: dict[str, tuple[str, ...]] = {
     "mechanism": (*_PHYSICS, "analysis", "mechanism"),
     "claims": (*_STATEMENTS, "claims", "claims/statements.toml title section form"),
     "continuum": (*_PHYSICS, "analysis", "continuum"),
-    "plot": ("model", "io", "analysis", "accuracy", "mechanism", "continuum", "plotting"),
+    "plot": (
+        *("model", "io", "analysis", "accuracy", "mechanism", "continuum", "plotting"),
+        "plotting/captions.toml",
+    ),
     "accuracy.md": ("model", "io", "analysis", "accuracy", "pages", "pages/accuracy.md"),
     "mechanism.md": ("model", "io", "analysis", "mechanism", "pages", "pages/mechanism.md"),
     "continuum.md": ("model", "io", "analysis", "continuum", "pages", "pages/continuum.md"),
     "claims.md": (*_STATEMENTS, "claims", "claims/statements.toml", "pages", "pages/claims.md"),
     "report": (
         *(*_STATEMENTS, "continuum", "claims", "plotting", "report"),
-        *("claims/statements.toml", "claims/full_study.csv", "plotting/captions.toml"),
+        *("claims/statements.toml", "plotting/captions.toml"),
         *("report/*.html", "report/*.css", "report/*.js", "report/*.md"),
     ),
 }

@@ -356,7 +356,6 @@ def test_the_interval_of_a_size_over_l_c_includes_all_sizes_that_may_have_the_lo
             (low, _), (_, high) = small.limits(together), large.limits(together)
             assert either.limits(together) == (low, high)
             assert low < small.value < large.value < high
-        assert either.error == max(small.error, large.error)
     assert len(found[0]) == 2
 
 

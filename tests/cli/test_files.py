@@ -66,7 +66,7 @@ def test_nothing_but_a_regular_file_is_replaced(springblock, tmp_path):
     (tmp_path / "link").symlink_to(tmp_path / "absent")
     for output in (tmp_path / "fifo", tmp_path / "link", Path("/dev/null")):
         before = output.lstat()
-        refusal = springblock("dictionary", "--output", output, refused=True)
+        refusal = springblock("prelude", "--n-blocks", 4, "--output", output, refused=True)
         assert "exists and is not a regular file" in refusal
         assert output.lstat() == before
 
@@ -82,7 +82,6 @@ OF_OTHER_TYPES = {
     ("make", "mechanism", *[__file__] * 3): "page.parquet",
     ("make", "sensitivities", __file__): "page.md",
     ("report", __file__): "report.pdf",
-    ("dictionary",): "tables.parquet",
     ("figure", "figure_1"): "figure.jpg",
     ("show", "--n-blocks", 4): "surface",
     ("plot", __file__): "run.parquet",
@@ -111,5 +110,6 @@ def test_two_outputs_are_two_files(springblock, batch, tmp_path, monkeypatch):
 
 def test_a_file_is_no_folder_to_write_to(springblock, tmp_path):
     (tmp_path / "file").touch()
-    refusal = springblock("dictionary", "--output", tmp_path / "file/deep/table", refused=True)
+    words = ("prelude", "--n-blocks", 4, "--output", tmp_path / "file/deep/prelude")
+    refusal = springblock(*words, refused=True)
     assert f"cannot be written, because {tmp_path / 'file'} is not a folder" in refusal

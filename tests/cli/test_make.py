@@ -6,15 +6,15 @@ import pytest
 
 from mechanism import chapter
 from precision import tables
-from springblock.accuracy import solutions, stability
+from springblock.accuracy import stability
 from springblock.accuracy.stability.cases import Case, Outcome
+from springblock.cli.options import schema_of
 from springblock.io.parquet import load, origin_of, write
-from springblock.report.dictionary import kinds
 
 
 def as_table(name, rows):
     """Rows as the table of this name; columns that they lack hold nothing."""
-    return pa.Table.from_pylist(rows, pa.schema([(f.name, f.type) for f in kinds()[name][1]]))
+    return pa.Table.from_pylist(rows, pa.schema([(f.name, f.type) for f in schema_of(name)]))
 
 
 def test_too_few_or_too_many_inputs_are_refused(springblock, tmp_path):
@@ -34,19 +34,6 @@ def test_cases_are_written_if_each_comes_out_as_expected(springblock, word, tmp_
     said = springblock("make", "stability", "--output", output, refused=refused)
     assert output.exists() == (not refused)
     assert ("nothing, rk4: expected 'agrees', not 'drifts'" in said) == refused
-
-
-def test_reference_solutions_that_have_changed_are_refused(springblock, tmp_path, monkeypatch):
-    """They are written, so that they can replace those of the package."""
-    found = solutions.stored()
-    words = ("make", "reference", "--output", tmp_path / "table")
-    monkeypatch.setattr(solutions, "solve_all", lambda: found)
-    springblock(*words)
-    found[3]["static_friction"] *= 1.001
-    monkeypatch.setattr(solutions, "stored", lambda: load(solutions.FILE).to_pylist())
-    said = springblock(*words, refused=True)
-    assert "flat, seed 3: static_friction differs from the stored solution" in said
-    assert load(tmp_path / "table").to_pylist()[3]["static_friction"] == found[3]["static_friction"]
 
 
 def test_models_on_small_pillars_become_a_table(springblock, tmp_path, monkeypatch):

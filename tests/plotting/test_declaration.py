@@ -1,6 +1,5 @@
 """What figures declare, what follows for a study, and the command that draws by it."""
 
-import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -13,7 +12,6 @@ from click.testing import CliRunner
 from snakemake.utils import update_config
 
 from plotting.test_paper_results import NORMAL_FORCE, SIZE, record
-from springblock import Material
 from springblock.cli import main
 from springblock.cli.figure import ensembles
 from springblock.io.parquet import rows_to_table, write
@@ -103,64 +101,22 @@ def test_figures_need_no_more_tables_than_they_show():
 
 
 @pytest.mark.parametrize(("config", "groups"), [PAPER, FULL, QUICK])
-def test_captions_say_what_a_study_draws(config, groups):
-    """Whatever the grid holds: every figure of scenes names N, each length, seeds and material."""
-    known, material = study.ensembles(config), Material(**config["material"])
+def test_a_study_has_the_data_of_its_figures(config, groups):
     for name, declared in FIGURES.items():
-        if not declared.is_part_of(groups):
-            continue
-        lengths = config["figures"].get(name, {})
-        given = declared.needs(groups, lengths) or declared.options(config["n_blocks"], lengths)
-        assert given or not signature(drawing(name)).parameters
-        caption = declared.caption_in(known, lengths, material)
-        assert caption.startswith(declared.caption)
-        assert caption.endswith(declared.marks or ".")
-        assert not set("{}") & set(declared.title + caption)  # wildcards for the workflow
-        for need in declared.needs(groups, lengths):
-            for key, length in need.scene.lengths.items() if need.scene else ():
-                assert re.search(rf"{key}\b[^.;(]*\b{length}\b", caption), (name, key, length)
-            if need.scene:
-                size = rf"N = [\d, ]*\b{need.scene.n_blocks}\b"
-                assert re.search(size, caption), (name, need.scene.n_blocks)
-                assert "Constants not named are the paper's." in caption
+        if declared.is_part_of(groups):
+            lengths = config["figures"].get(name, {})
+            given = declared.needs(groups, lengths) or declared.options(config["n_blocks"], lengths)
+            assert given or not signature(drawing(name)).parameters
 
 
-def test_a_caption_follows_the_grid():
-    """Scenes with the same seeds stand together; what all share stands in front."""
-    ensembles = {
-        "flat": [study.Planned(FLAT, range(7, 8), None)],
-        "pillars": [study.Planned(scene, range(20), None) for scene in (LARGE, SMALL)],
-    }
-    figure = FIGURES["figure_6"]
-    assert figure.data_in_words(ensembles, {}, Material(pressure=1e5)) == (
-        "N = 120, sliding direction x. Flat surface (seed 7). Pillars n_p/n_s = 2/2, 20/20 "
-        "(20 realisations, seeds 0 to 19). pressure = 100000; constants not named are the paper's."
-    )
-    weak = Material(law="slip_weakening", slip_distance=2e-8)
-    assert figure.data_in_words(ensembles, {}, weak).endswith(
-        "law = slip_weakening, slip_distance = 2e-08; constants not named are the paper's."
-    )
-    one = FIGURES["figure_3"].data_in_words(ensembles, {}, Material())
-    ours = "Constants not named are the paper's."
-    assert one == f"N = 120, sliding direction x. Flat surface (seed 7). {ours}"
-    ensembles["grooves"] = [study.Planned(s, range(4), None) for s in (ALONG, ASKEW, OTHER)]
-    assert FIGURES["figure_9"].data_in_words(ensembles, {}, Material()) == (
-        "N = 120. Grooved pillars n_p/n_s = 58/62, n_p2/n_s2 = 8/2, sliding direction x "
-        "(4 realisations, seeds 0 to 3); n_p/n_s = 58/62, n_p2/n_s2 = 10/2, sliding direction 45°, "
-        f"x (4 realisations, seeds 0 to 3). {ours}"
-    )
-
-
-def test_a_picture_keeps_its_caption(tmp_path):
-    """The general one, or the one that the workflow fills, which the report shows, too."""
-    for caption, options in (
-        ("a) Blocks and internal springs", []),
-        ("Two levels.", ["--caption", "Two levels."]),
-    ):
-        output = tmp_path / "figure.png"
-        arguments = ["figure", "figure_1", *options, "--output", str(output)]
-        assert CliRunner().invoke(main, arguments).exit_code == 0
-        assert caption.encode() in output.read_bytes()
+def test_a_picture_keeps_its_caption_with_the_size_of_its_sample(tmp_path):
+    runs = replace(record(0), seed=0), replace(record(1), seed=1)
+    batches = [batch(tmp_path / str(run.seed), run) for run in runs]
+    output, words = tmp_path / "figure.png", FIGURES["figure_5"].caption
+    arguments = ["figure", "figure_5", *map(str, batches), "--output", str(output)]
+    assert CliRunner().invoke(main, arguments).exit_code == 0
+    said = f"{words} n_p = {SIZE}, N = 24, sliding direction x, 2 realisations. a) Blue: "
+    assert said.encode() in output.read_bytes()
 
 
 def batch(path: Path, run: Record) -> Path:

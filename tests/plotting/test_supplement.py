@@ -7,13 +7,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from plotting.test_paper_results import ensemble, record
-from springblock import Material
 from springblock.io.records import Record
 from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
 from springblock.plotting import drawing
-from springblock.plotting.figures import FIGURES
-from springblock.study.configuration import Planned
 
 ISLANDS = np.indices((6, 9)).sum(axis=0) % 4 > 1
 
@@ -67,23 +64,6 @@ def test_a_block_that_has_not_let_go_in_a_run_has_no_mean_time():
     (image,) = drawing("surfaces")({"short": [one, short]}).axes[1].images
     known = np.isfinite(np.ma.filled(image.get_array(), np.nan))
     np.testing.assert_array_equal(known, ISLANDS & (np.arange(9) == 8))
-
-
-def test_its_caption_names_what_is_ones_own():
-    mu = BlockMap("strong-00000000", np.ones((4, 4)))
-    weibull = Scene(4, n_rows=2, varied={"distribution": "weibull"})
-    scenes = [Scene(mask=BlockMap("islands-1a2b3c4d", ISLANDS), edges="periodic"), weibull]
-    scenes += [Scene(4, mu_static_field=mu)]
-    ensembles = {"surfaces": [Planned(scene, range(3), None) for scene in scenes]}
-    said = FIGURES["surfaces"].data_in_words(ensembles, {}, Material(distribution="uniform"))
-    assert said == (
-        "Sliding direction x. "
-        "Surface islands-1a2b3c4d, n_rows = 6, periodic edges, N = 9 "
-        "(3 realisations, seeds 0 to 2). "
-        "Flat surface, distribution=weibull, n_rows = 2, N = 4 (3 realisations, seeds 0 to 2); "
-        "mu_static from strong-00000000, N = 4 (3 realisations, seeds 0 to 2). "
-        "distribution = uniform; constants not named are the paper's."
-    )
 
 
 def test_a_row_names_the_widths_of_its_levels_and_the_way_of_the_third():

@@ -389,8 +389,7 @@ TEXTS: dict[str, Callable[[], str]] = {
 
 
 def anywhere(text: str) -> str:
-    """Return the text without digests of code and files, and without captions."""
-    text = re.sub(r"--caption '[^']*'(\"'\"'[^']*')*", "--caption ...", text)
+    """Return the text without digests of code and files."""
     return re.sub(r"(?<!\.)\b(?=\d*[a-f])[0-9a-f]{16,}\b", "...", text)
 
 

@@ -15,7 +15,7 @@ from springblock.report.findings import FILE, lowest_size, values
 def finding(name, value, verdict="reproduced", outcome="holds", **case):
     """A row of the table of statements."""
     limits = {"together_low": value - 0.01, "together_high": value + 0.01}
-    limits |= {"claimed_low": 0.01, "claimed_high": 0.5, "unit": "1", "needed": 0.0}
+    limits |= {"claimed_low": 0.01, "claimed_high": 0.5, "unit": "1"}
     return {"id": name, "verdict": verdict, "outcome": outcome, "value": value, **limits} | asdict(
         Case(**case)
     )

@@ -8,11 +8,11 @@ import pyarrow as pa
 import pytest
 
 from springblock.claims import STATEMENTS
-from springblock.claims.full_study import verdicts
 from springblock.claims.rule import Evidence
 from springblock.claims.summary import values
-from springblock.claims.table import rows
+from springblock.claims.table import SCHEMA, rows
 from springblock.cli import main
+from springblock.io.parquet import rows_to_table, write
 from springblock.io.records import read_records
 from springblock.pages import rendered
 from springblock.plotting.figures import FIGURES
@@ -25,20 +25,28 @@ def test_each_statement_belongs_to_a_figure():
     assert {f"figure_{each.figure}" for each in STATEMENTS} <= FIGURES.keys()
 
 
-def test_a_figure_has_the_verdicts_of_the_full_study(picture):
-    """They lead to the study's own page of statements, if it has one."""
+@pytest.fixture
+def untested(tmp_path):
+    """The table of statements of a study without data."""
+    write(rows_to_table(rows(STATEMENTS, Evidence()), SCHEMA), tmp_path / "claims.parquet", {})
+    return tmp_path / "claims.parquet"
+
+
+def test_a_figure_has_the_verdicts_of_the_study(picture, untested):
+    """They lead to the page of statements, if there is one."""
     first = STATEMENTS[0]
-    text = page([picture(f"figure_{first.figure}.png", "a")], {})
+    figure = picture(f"figure_{first.figure}.png", "a")
+    text = page([figure, untested], {})
     _, _, after = text.partition(str(typeset(first.title)))
-    found = verdicts()[first.id]
-    assert f"holds in {found['holds']} of {found['cases']} cases" in after
+    assert "0 of 0 cases hold" in after
     assert "#claims-" not in text
+    assert "verdicts of this study" not in page([figure], {})
 
 
-def test_links_to_statements_lead_to_their_parts_of_the_page(picture, tmp_path):
+def test_links_to_statements_lead_to_their_parts_of_the_page(picture, tmp_path, untested):
     own = tmp_path / "claims.md"
     own.write_text(rendered("claims.md", **values(rows(STATEMENTS, Evidence()))))
-    text = page([own, *(picture(f"figure_{i}.png", "a") for i in range(1, 10))], {})
+    text = page([own, untested, *(picture(f"figure_{i}.png", "a") for i in range(1, 10))], {})
     links = re.findall(r'href="#(claims-\d[^"]+)"', text)
     assert len(links) >= len(STATEMENTS)
     assert all(f'id="{link}"' in text for link in links)
@@ -96,20 +104,21 @@ def test_a_table_leaves_out_what_is_the_same_in_all_rows():
     assert shown["rows"] == [("1", ""), ("2", "0.123457")]
 
 
-def test_a_film_is_told_in_words(tmp_path):
+def test_a_film_says_when_blocks_detach(tmp_path):
     file = tmp_path / "run.parquet"
     options = ["--n-blocks", "12", "--n-p", "3", "--n-s", "3", "--first-seed", "4"]
     main(["simulate", *options, "--output", str(file)], standalone_mode=False)
     (run,) = read_records([file])
-    said = media.in_words(run)
-    assert said.startswith("N = 12, sliding direction x. Pillars n_p/n_s = 3/3 (seed 4). 36 ")
-    assert f" {1e6 * run.t_max:.1f} µs" in said
+    said = media.told(run)
+    assert said["scene"] == str(run.scene)
+    assert (said["seed"], said["blocks"]) == (4, 36)
+    assert said["detached"]["t_max"] == 1e6 * run.t_max
     early = np.where(np.arange(144).reshape(12, 12) % 7 == 0, 0.0, np.nan)  # a few, and no others
     few = np.where(run.contact, early, np.nan)
     share = 100.0 * np.isfinite(few).sum() / 36
-    assert media.in_words(replace(run, t_det=few)).endswith(f"when {share:.1f} % have detached.")
+    assert media.told(replace(run, t_det=few))["detached"]["before"] == share
     still = replace(run, t_det=np.full_like(run.t_det, np.nan))  # ends before a block detaches
-    assert "nan" not in media.in_words(still)
+    assert not media.told(still)["detached"]
 
 
 def test_means_are_those_of_ensembles_with_the_constants_of_the_study(springblock, tmp_path):

@@ -5,7 +5,7 @@ import pytest
 from springblock import Material, Surface, simulate
 from springblock.model.scene import Scene
 from springblock.simulation.setup import Setup
-from springblock.study.cost import cpu_seconds, expected, in_words, memory, minutes
+from springblock.study.cost import cpu_seconds, memory, minutes
 
 #: N, realisations of a batch on pillars, and the largest resident set of its job, MB.
 MEASURED = [(240, 1, 261), (240, 10, 305), (480, 1, 329)]
@@ -41,11 +41,3 @@ def test_requests_grow_with_the_work():
 @pytest.mark.parametrize(("n_blocks", "realisations", "measured"), MEASURED)
 def test_memory_is_what_was_measured_with_a_margin(n_blocks, realisations, measured):
     assert 1.1 * measured < memory(Scene(n_blocks, 10, 10), realisations) < 2.0 * measured
-
-
-def test_a_study_is_as_long_as_its_work_on_all_cores_or_as_its_longest_job():
-    assert in_words([600.0, 600.0], 2) == "about 10 min on 2 cores"
-    assert in_words([600.0, 60.0], 2) == "about 10 min on 2 cores"
-    assert in_words([36e3], 1) == "about 10.0 hours on 1 core"
-    job = expected(Scene(120), Setup(), 3e-4, 10)
-    assert job == pytest.approx(1.5 + 4.2 * cpu_seconds(Scene(120), Setup(), 3e-4))

@@ -24,23 +24,16 @@ class Estimate:
         mean, low, high = interval
         return cls(float(mean), float(low), float(high), n)
 
-    @property
-    def error(self) -> float:
-        """Standard error: half the 95 % interval over the quantile of Student's t."""
-        low, high = self.limits(1)
-        return (high - low) / 2.0 / float(students_t(self.n - 1))
-
-    def limits(self, together: int, n: int | None = None) -> tuple[float, float]:
+    def limits(self, together: int) -> tuple[float, float]:
         """Limits for `together` simultaneous intervals (Bonferroni), at a joint level of 95 %.
 
         Both sides of the interval are scaled like those of Student's t, from 95 % to
-        1 - 0.05/together. With another `n`, limits expected for n realisations of equal scatter.
+        1 - 0.05/together.
         """
         if not self.n:
             return self.ci_low, self.ci_high
-        n = n or self.n
-        now, then = students_t(self.n - 1), students_t(n - 1, 1.0 - _MISS / together)
-        wider = float(then / now) * math.sqrt(self.n / n)
+        now, then = students_t(self.n - 1), students_t(self.n - 1, 1.0 - _MISS / together)
+        wider = float(then / now)
         below, above = self.value - self.ci_low, self.ci_high - self.value
         lowest, highest = self.bounds
         return max(lowest, self.value - wider * below), min(highest, self.value + wider * above)
@@ -49,10 +42,9 @@ class Estimate:
 class Proportion(Estimate):
     """A proportion of realisations, with exact limits at any level."""
 
-    def limits(self, together: int, n: int | None = None) -> tuple[float, float]:
+    def limits(self, together: int) -> tuple[float, float]:
         """Limits as in `Estimate.limits`, within 0 and 1."""
-        n = n or self.n
-        found = proportion_interval(round(self.value * n), n, 1.0 - _MISS / together)
+        found = proportion_interval(round(self.value * self.n), self.n, 1.0 - _MISS / together)
         return float(found.low), float(found.high)
 
 
@@ -68,14 +60,9 @@ class AnyOf(Estimate):
         low, high = min(one.ci_low for one in each), max(one.ci_high for one in each)
         return cls(each[0].value, low, high, min(one.n for one in each), each=each)
 
-    @property
-    def error(self) -> float:
-        """Largest standard error of the estimates."""
-        return max(one.error for one in self.each)
-
-    def limits(self, together: int, n: int | None = None) -> tuple[float, float]:
+    def limits(self, together: int) -> tuple[float, float]:
         """Limits as in `Estimate.limits`; the distances between estimates are not scaled."""
-        limits = [one.limits(together, n) for one in self.each]
+        limits = [one.limits(together) for one in self.each]
         return min(low for low, _ in limits), max(high for _, high in limits)
 
 

@@ -18,8 +18,6 @@ RowsByScene = Mapping[Scene, Sequence[Row]]  #: of a table
 Range = tuple[float, float]
 
 ENOUGH = 20  #: realisations that a surface needs to be tested
-_POWER = 1.28  #: 90 % quantile of the standard normal distribution
-_MANY = 10**6  #: effectively infinite number of realisations
 _WORST_FIRST = ("fails", "open", "holds")
 
 
@@ -74,31 +72,11 @@ class Finding:
         It holds where the interval lies within the claimed range, fails where it lies wholly
         outside, and is open otherwise or without an interval.
         """
-        return self._outcome(*self.estimate.limits(together))
-
-    def _outcome(self, low: float, high: float) -> str:
+        low, high = self.estimate.limits(together)
         lowest, highest = self.claimed
         if (lowest < low or math.isinf(lowest)) and (high < highest or math.isinf(highest)):
             return "holds"
         return "fails" if high <= lowest or low >= highest else "open"
-
-    def needed(self, together: int = 1) -> float:
-        """Return the number of realisations that decides with a power of 90 %, within 2 %.
-
-        Value and scatter are taken as the true ones. Where samples are compared it is the size of
-        the smallest, if the others grow in proportion. Infinite beyond a million; NaN for exact
-        values and without an interval.
-        """
-        if self.estimate.n < 2 or math.isnan(self.estimate.ci_low):
-            return math.nan
-        n = 2
-        while n < _MANY:
-            low, high = self.estimate.limits(together, n)
-            spare = _POWER * self.estimate.error * math.sqrt(self.estimate.n / n)
-            if self._outcome(low - spare, high + spare) != "open":
-                return n
-            n = math.ceil(1.02 * n)
-        return math.inf
 
 
 Test = Callable[[Evidence], Iterable[Finding]]

@@ -8,8 +8,6 @@ from itertools import groupby
 from operator import itemgetter
 from typing import Any
 
-import numpy as np
-
 from springblock.analysis.statistics import Interval, number
 from springblock.claims import STATEMENTS
 from springblock.claims.rule import Case, Statement
@@ -56,8 +54,7 @@ class Judged:
     def deciding(self) -> Row | None:
         """The finding that decided the verdict, None without any.
 
-        That is the one with the smallest margin, the clearest failure, or the open one that needs
-        the most realisations.
+        That is the one with the smallest margin, the clearest failure, or the first open one.
         """
         if self.verdict == "not tested":
             return None
@@ -65,7 +62,7 @@ class Judged:
             "reproduced": ("holds", min, _clearness),
             "reproduced in part": ("fails", max, _clearness),
             "not reproduced": ("fails", max, _clearness),
-            "not settled": ("open", max, lambda row: np.nan_to_num(row["needed"], nan=-1.0)),
+            "not settled": ("open", min, lambda _: (0.0, 0.0)),  # the first
         }[self.verdict]
         return choose((row for row in self.rows if row["outcome"] == kind), key=key)
 
@@ -77,7 +74,6 @@ class Judged:
             columns["statistic"] = [row["statistic"] for row in self.rows]
         columns["value"] = [row["shown"] for row in self.rows]
         columns |= {name: [row[name] for row in self.rows] for name in ("claimed", "outcome")}
-        columns["realisations needed"] = [_needed(row) for row in self.rows]
         filled = {name: cells for name, cells in columns.items() if any(cells)}
         return list(filled), list(zip(*filled.values(), strict=True))
 
@@ -127,14 +123,6 @@ def _range(row: Row) -> str:
     if math.isinf(high):
         return f"> {low:.3g}"
     return f"< {high:.3g}" if math.isinf(low) else f"{low:.3g} to {high:.3g}"
-
-
-def _needed(row: Row) -> str:
-    """Return the realisations that would settle an open finding, to two digits."""
-    wanted = row["needed"]
-    if row["outcome"] != "open" or math.isnan(wanted):
-        return ""
-    return "inf" if math.isinf(wanted) else f"{float(f'{wanted:.2g}'):.0f}"
 
 
 def _clearness(row: Row) -> tuple[float, float]:

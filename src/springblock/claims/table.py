@@ -68,13 +68,6 @@ SCHEMA = pa.schema(
         column("realisations", pa.int32(), "1", "number of realisations; 0: exact"),
         *texts(
             outcome="of this row: holds, fails or open",
-        ),
-        *numbers(
-            "1",
-            needed="realisations that decide with a power of 90 % if value and standard deviation "
-            "are the true ones",
-        ),
-        *texts(
             verdict="verdict on the statement, from all its rows",
         ),
         column("holds", pa.int32(), "1", "cases of the statement that hold"),
@@ -114,7 +107,6 @@ def _measured(finding: Finding, together: int) -> Row:
         "claimed_high": finding.claimed[1],
         "realisations": estimate.n,
         "outcome": finding.outcome(together),
-        "needed": finding.needed(together),
         "rests_on": finding.rests_on,
     }
 

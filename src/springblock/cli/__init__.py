@@ -32,7 +32,6 @@ COMMANDS = {
     "info": "springblock.cli.tables:info",
     "table": "springblock.cli.tables:table",
     "compare": "springblock.cli.tables:compare",
-    "dictionary": "springblock.cli.tables:dictionary",
 }
 
 

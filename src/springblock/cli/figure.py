@@ -11,7 +11,7 @@ import click
 from springblock.cli.options import INPUT, PICTURE, load_as, scene_options, with_options
 from springblock.io.records import Record, read_records
 from springblock.plotting import drawing
-from springblock.plotting.declaration import Declaration
+from springblock.plotting.declaration import Declaration, span
 from springblock.plotting.figures import FIGURES
 from springblock.plotting.style import save
 
@@ -64,22 +64,36 @@ _DATA: dict[str, tuple[list[Callable[..., Any]], Callable[..., list[Any]]]] = {
 _OUTPUTS = click.option(
     "--output", "outputs", type=PICTURE, multiple=True, required=True, help="PDF, PNG or SVG file."
 )
-_CAPTION = click.option(
-    "--caption", help="Caption in the file's metadata, in place of the general one."
-)
+
+
+def _values(declared: Declaration, data: list[Any]) -> dict[str, object]:
+    """Return what a caption names of the data."""
+    if declared.draws == "correlations":
+        return {name: span(data[0][name]) for name in ("n_blocks", "n_p")}
+    if declared.draws != "realisations":
+        return {}
+    samples = list(data[0].values()) if declared.keys else data
+    scenes = [runs[0].scene for runs in samples]
+    return {
+        "n_blocks": span(scene.n_blocks for scene in scenes),
+        "n_p": span(scene.n_p for scene in scenes),
+        "direction": ", ".join(dict.fromkeys(scene.direction for scene in scenes)),
+        "runs": span(map(len, samples)),
+    }
 
 
 def _command(name: str, declared: Declaration) -> click.Command:
     """Return the command that draws a figure, from its declaration."""
     takes, given = _DATA[declared.draws]
 
-    def write(outputs: Paths, caption: str | None, **inputs: Any) -> None:
-        picture = drawing(name)(*given(declared, **inputs))
+    def write(outputs: Paths, **inputs: Any) -> None:
+        data = given(declared, **inputs)
+        picture = drawing(name)(*data)
         for output in outputs:
-            save(picture, output, caption or declared.usual_caption)
+            save(picture, output, declared.described(**_values(declared, data)))
 
-    command = click.command(name, help=declared.usual_caption, short_help=declared.title)
-    return command(with_options([*takes, _CAPTION, _OUTPUTS], write))
+    command = click.command(name, help=declared.caption, short_help=declared.title)
+    return command(with_options([*takes, _OUTPUTS], write))
 
 
 @click.group(

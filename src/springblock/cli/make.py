@@ -14,7 +14,7 @@ from springblock.io.records import read_records
 from springblock.mechanism.surfaces import TABLES
 from springblock.provenance import made_by, of_study
 
-MEASURED = ["stability", "reference"]
+MEASURED = ["stability"]
 MEASURED += [f"{kind}-{scene}" for kind in (*COMPARISONS, "production") for scene in SCENES]
 MEASURED += [f"mechanism-{part}" for parts in TABLES.values() for part in parts]
 MEASURED += [f"continuum-{part}" for part in PARTS]
@@ -60,7 +60,6 @@ def make(
     \b
     Tables, without INPUTS:
       stability          stiff and extreme cases
-      reference          solutions of the small runs, compared with those of the package
       reference-SCENE    errors of single runs (likewise paired-SCENE: of small ensembles)
       production-SCENE   errors of ensembles with N = 120
       continuum-PART     unit cells beside their theory
@@ -93,17 +92,13 @@ def make(
 
 def _measure(name: str, seeds: int, finest_step: float, output: Path) -> None:
     """Write a table without inputs."""
-    from springblock.accuracy import production, solutions, stability, work_precision
+    from springblock.accuracy import production, stability, work_precision
     from springblock.continuum import cases
     from springblock.mechanism.tables import FRICTION, measure
 
     kind, _, scene = name.partition("-")
     step, schema = "accuracy", work_precision.SCHEMA
-    metadata = {}
-    if name == "reference":
-        schema, rows = solutions.SCHEMA, list(solutions.solve_all())
-        metadata["solutions"] = solutions.digest()
-    elif kind == "stability":
+    if kind == "stability":
         schema, rows = stability.SCHEMA, stability.stability_rows()
     elif kind == "production":
         schema = production.SCHEMA
@@ -114,9 +109,7 @@ def _measure(name: str, seeds: int, finest_step: float, output: Path) -> None:
         step, schema, rows = "continuum", cases.CELLS, list(cases.measure(scene))
     else:
         rows = list(work_precision.ROWS[kind](scene))
-    write(rows_to_table(rows, schema), output, made_by(step) | metadata)
-    if name == "reference":
-        solutions.refuse_changed(rows, solutions.stored())
+    write(rows_to_table(rows, schema), output, made_by(step))
 
 
 def _collect(tables: tuple[Path, ...], output: Path) -> None:

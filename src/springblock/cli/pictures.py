@@ -87,7 +87,7 @@ def plot(
         found = lines(rows, over)
         observables = observables or ("static_friction",)
         picture = sweep.draw(found, over, observables)
-        caption = sweep.caption(found, over)
+        caption = sweep.caption(found)
         if left_out := len(rows) - len(sweep.drawn(found)):
             click.echo(f"Left out: {left_out} realisations of surfaces with a single {over}")
     for output in outputs:

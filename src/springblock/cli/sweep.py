@@ -102,5 +102,6 @@ def sweep(
     write(table, output / "realisations.parquet", made_by("simulate"))
     for over in axes(setups):
         found = lines(table.to_pylist(), over)
-        save(plot.draw(found, over, _DRAWN), output / f"{over}.png", plot.caption(found, over))
+        picture = plot.draw(found, over, _DRAWN)
+        save(picture, output / f"{over}.png", plot.caption(found))
     click.echo(f"springblock table {output} shows the means, and with --changes how they change")

@@ -1,4 +1,4 @@
-"""springblock table, compare, info and dictionary: what tables hold, and how two differ."""
+"""springblock table, compare and info: what tables hold, and how two differ."""
 
 import csv
 from collections.abc import Sequence
@@ -13,12 +13,11 @@ from springblock.analysis.ensembles import OBSERVABLES, changes, ensembles, tell
 from springblock.analysis.means import changes_from_first, differences, in_words, means
 from springblock.analysis.statistics import Interval
 from springblock.cli.options import INPUT, Output, defaulted, print_columns
-from springblock.files import whole_file, write_text
+from springblock.files import whole_file
 from springblock.io.identity import refuse_misplaced
 from springblock.io.parquet import load, origin_of, refuse_mixed_code
 from springblock.io.rows import Row, limits
-from springblock.io.schemas import SUMMARY
-from springblock.report.dictionary import columns, contents
+from springblock.io.schemas import SUMMARY, said
 
 _PATH = click.Path(exists=True, path_type=Path)
 _SHOWN = 5  #: largest number of ensembles listed that only one side has
@@ -182,13 +181,7 @@ def info(file: Path) -> None:
     click.echo(f"{file}: {table.num_rows} rows, {table.num_columns} columns")
     for key, value in origin_of(table).items():
         click.echo(f"{key}: {value}")
-    print_columns([[cell.strip("`") for cell in line] for line in columns(table.schema)])
-
-
-@click.command("dictionary")
-@click.option("--output", type=Output(".md"), required=True, help="Markdown file.")
-def dictionary(output: Path) -> None:
-    """Write the columns of all tables with units and meanings."""
-    from springblock.pages import rendered  # needs the packages of the study
-
-    write_text(output, rendered("tables.md", **contents()))
+    kinds = [str(field.type).replace("element: ", "") for field in table.schema]
+    print_columns(
+        [[field.name, kind, *said(field)] for field, kind in zip(table.schema, kinds, strict=True)]
+    )

@@ -3,19 +3,13 @@
 Command line and workflow are built from these declarations.
 """
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
-from springblock.model.material import Material
 from springblock.model.scene import Scene
-from springblock.plotting.caption import material_in_words, sample_in_words, surface_in_words
-
-if TYPE_CHECKING:  # reads configurations, which a plain installation cannot
-    from springblock.study.configuration import Planned
-
-    Ensembles = Mapping[str, Sequence[Planned]]  #: of a study by group
 
 Groups = Mapping[str, Sequence[Scene]]  #: scenes of a study by group; a group may be empty
 Lengths = Mapping[str, Any]  #: of a scene, as the configuration gives them for a figure
@@ -45,8 +39,8 @@ class Declaration:
     name: str  #: of its file and of its command
     title: str
     module: str  #: of `plotting`, whose function of the figure's name draws it
-    caption: str  #: what is plotted, for which surfaces; lines may break anywhere
-    marks: str = ""  #: meaning of bands, bars and symbols; follows surfaces and realisations
+    caption: str  #: what is plotted; lines may break anywhere
+    marks: str = ""  #: surfaces, realisations, and the meaning of bands, bars and symbols
     draws: Literal["nothing", "pattern", "tables", "realisations", "correlations"] = "realisations"
     groups: tuple[str, ...] = ()  #: of scenes, all of which a study must have
     also: tuple[str, ...] = ()  #: groups that are drawn, too, where a study has them
@@ -63,28 +57,9 @@ class Declaration:
         """Return the figure's part of the report: Figures, or the name of its module."""
         return "Figures" if self.module.startswith("paper_") else self.module.capitalize()
 
-    @property
-    def usual_caption(self) -> str:
-        """Return the caption without a study."""
-        return f"{self.caption} {self.marks}".strip()
-
-    def caption_in(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
-        """Return the caption with the surfaces, seeds and material of a study."""
-        drawn = self.data_in_words(ensembles, lengths, material)
-        return " ".join(filter(None, (self.caption, drawn, self.marks)))
-
-    def data_in_words(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
-        """Describe the data in a study, in whole sentences: surfaces, seeds and material."""
-        if self.draws == "pattern":
-            return f"Drawn with {surface_in_words(lengths)}."
-        groups = {name: [e.scene for e in members] for name, members in ensembles.items()}
-        known = {e.scene: e.seeds for members in ensembles.values() for e in members}
-        sample = {
-            need.scene: known[need.scene] if need.batches is None else known[need.scene][:1]
-            for need in self.needs(groups, lengths)
-            if need.scene
-        }
-        return f"{sample_in_words(sample)} {material_in_words(material)}" if sample else ""
+    def described(self, **values: object) -> str:
+        """Return the caption with N, n_p, sliding direction and number of runs of the data."""
+        return f"{self.caption} {self.marks}".strip().format_map(values)
 
     def is_part_of(self, groups: Groups) -> bool:
         """Return whether a study has all groups of scenes that the figure needs."""
@@ -119,3 +94,19 @@ def first_of_each(keys: Sequence[str], scenes: Iterable[Scene]) -> list[Scene]:
     for scene in scenes:
         first.setdefault(tuple(getattr(scene, key) for key in keys), scene)
     return list(first.values())
+
+
+def span(values: Iterable[int]) -> str:
+    """Return the range of some numbers: 20, or 20 to 300."""
+    lowest, *_, highest = sorted([*values] * 2)
+    return f"{lowest}" if lowest == highest else f"{lowest} to {highest}"
+
+
+def file_name(scene: Scene) -> str:
+    """Name the file of a surface's film, in letters, digits and _."""
+    if scene.mask:
+        return re.sub(r"\W", "_", str(scene.mask))
+    kinds = ("flat_surface", "grooves", "grooves"), ("", "pillars", "grooved_pillars")
+    sizes = scene.lengths | {"N": scene.n_blocks} | ({"rows": scene.n_rows} if scene.n_rows else {})
+    kind = kinds[scene.n_p > 0][min(scene.level, 2)]
+    return "_".join([kind, *(f"{name}_{size}" for name, size in sizes.items())])

@@ -16,6 +16,7 @@ SINGLE = 20  #: largest number of runs of an ensemble that are drawn one by one
 PATTERN = ("n_p2", "n_s2", "n_p3", "n_s3", "along_3", "direction")
 
 _WORDS = tomllib.loads((Path(__file__).parent / "captions.toml").read_text(encoding="utf-8"))
+SWEEP = " ".join(_WORDS.pop("sweep")["caption"].split())  #: caption of a sweep
 _SHARED = _WORDS.pop("shared") | {"single": SINGLE}
 
 

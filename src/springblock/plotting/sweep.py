@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 
 from springblock.io.rows import Row
 from springblock.model.material import law_units
-from springblock.model.scene import Scene
 from springblock.plotting import curves, style
-from springblock.plotting.caption import sample_in_words
+from springblock.plotting.declaration import span
+from springblock.plotting.figures import SWEEP
 from springblock.plotting.lines import Lines, Places, in_math, units_of
 from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, PURPLE, VERMILION, Look
 
@@ -33,18 +33,10 @@ _DECADE = 10.0  #: ratio of the largest to the smallest place from which on the 
 _SIGN, _LETTER, _LINE = 12.0, 1.375, 3.6  #: mm, widths and height in the legend
 
 
-def caption(found: Lines, over: str) -> str:
-    """Return the caption of lines: surfaces, seeds and marks."""
-    seeds: dict[Scene, list[int]] = {}
-    for row in drawn(found):
-        seeds.setdefault(Scene.from_row(row), []).append(row["seed"])
-    sample = {scene: range(min(some), max(some) + 1) for scene, some in seeds.items()}
-    along = " and in n_s, in proportion to it" if over == "n_p" else ""
-    return (
-        f"Lines join ensembles that differ only in the quantity on the axis{along}. "
-        f"{sample_in_words(sample)} Symbols, slightly offset: means; bars: 95 % t intervals over "
-        "realisations."
-    )
+def caption(found: Lines) -> str:
+    """Return the caption of lines."""
+    runs = span(len(rows) for line in found.values() for rows in line.values())
+    return SWEEP.format(runs=runs, n_blocks=span(row["n_blocks"] for row in drawn(found)))
 
 
 def drawn(found: Lines) -> list[Row]:

@@ -10,7 +10,6 @@ from PIL import Image
 
 from springblock.io.records import Record, read_records
 from springblock.plotting import film
-from springblock.plotting.caption import sample_in_words
 from springblock.plotting.figures import FIGURES
 from springblock.plotting.style import MICRO
 
@@ -44,7 +43,7 @@ def moving(path: Path, batch: Path) -> dict[str, Any]:
     poster = Image.fromarray(film.frames(run, [run.t_max - run.time[1], run.t_max])[-1])
     return {
         "name": path.stem,
-        "text": in_words(run),
+        "run": told(run),
         "source": address("image/gif", path.read_bytes()),
         "poster": _webp(poster),  # at the force maximum
         "width": poster.width,
@@ -52,20 +51,16 @@ def moving(path: Path, batch: Path) -> dict[str, Any]:
     }
 
 
-def in_words(run: Record) -> str:
-    """Say what a film of a run shows, and when most of its blocks detach."""
-    times = run.t_det[np.isfinite(run.t_det)]
-    blocks = int(np.count_nonzero(run.contact))
-    surface = sample_in_words({run.scene: range(run.seed, run.seed + 1)})
-    said = f"{surface} {blocks} blocks are in contact."
-    if not times.size:
-        return f"{said} None of them detaches."
-    first, half = MICRO * times.min(), MICRO * np.median(times)
-    before = 100.0 * np.count_nonzero(times < run.t_max) / blocks
-    return (
-        f"{said} The first detaches at {first:.1f} µs and the median one at {half:.1f} µs. The "
-        f"force is largest at {MICRO * run.t_max:.1f} µs, when {before:.1f} % have detached."
-    )
+def told(run: Record) -> dict[str, Any]:
+    """Return the scene and seed of a run, and when its blocks detach: times in µs, shares in %."""
+    times, blocks = run.t_det[np.isfinite(run.t_det)], int(np.count_nonzero(run.contact))
+    detached = times.size and {
+        "first": MICRO * times.min(),
+        "median": MICRO * np.median(times),
+        "t_max": MICRO * run.t_max,
+        "before": 100.0 * np.count_nonzero(times < run.t_max) / blocks,
+    }
+    return {"scene": str(run.scene), "seed": run.seed, "blocks": blocks, "detached": detached}
 
 
 def _title(name: str, declared: str) -> str:

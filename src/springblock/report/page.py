@@ -15,7 +15,6 @@ from markupsafe import Markup
 from springblock.analysis.ensembles import Ensemble, constants, ensembles
 from springblock.analysis.means import UNITS, changes_from_first, in_words, means
 from springblock.claims import STATEMENTS
-from springblock.claims.full_study import verdicts
 from springblock.io.parquet import load, origin_of
 from springblock.io.rows import Row
 from springblock.model.material import Material
@@ -55,7 +54,7 @@ def report_page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = F
         raise ValueError("a report on own scenes needs the table realisations.parquet")
     runs = rows.get("realisations", [])
     members = ensembles(row for row in runs if own or not row["varied"])
-    content = _of_own(members) if own else _of_study(figures, pages)
+    content = _of_own(members) if own else _of_study(figures, pages, rows.get("claims", []))
     return rendered(
         "own.html" if own else "page.html",
         **content,
@@ -93,12 +92,14 @@ def _spaced(rows: Sequence[Row]) -> tuple[list[str], list[list[str]]]:
     return [name.replace("static_friction", "static friction") for name in head], cells
 
 
-def _of_study(figures: Figures, pages: Mapping[str, markup.Page]) -> dict[str, Any]:
-    """Return findings and verdicts of the full study, and the parts of the page of a study."""
-    found = verdicts()
+def _of_study(
+    figures: Figures, pages: Mapping[str, markup.Page], claims: Iterable[Row]
+) -> dict[str, Any]:
+    """Return findings of the full study, and verdicts and parts of the page of a study."""
+    found = {row["id"]: row for row in claims}
     return {
         "findings": markup.rendered("findings", FILE.read_text("utf-8"), pages).body,
-        "statements": [(each, found[each.id]) for each in STATEMENTS],
+        "statements": [(each, found[each.id]) for each in STATEMENTS if each.id in found],
         "in_text": {
             place: [figures[name] for name in names if name in figures]
             for place, names in IN_TEXT.items()

@@ -1,18 +1,11 @@
 """Run time and memory of jobs, from measured rates, for requests to a queue."""
 
 import math
-from collections.abc import Sequence
 
 from springblock.model.scene import Scene
 from springblock.simulation.setup import Setup
 from springblock.solver.integrators import INTEGRATORS
 
-#: CPU seconds of jobs of config/full.yaml: until a simulation begins, its work as a share of
-#: `cpu_seconds`, and those of other jobs by their rule.
-_BEGIN, _SHARE, _OTHER = 1.5, 0.42, 3.0
-_MEASURED = {"compile": 15.0, "report": 10.0, "claims_table": 45.0}
-_MEASURED |= {"compare_scene": 100.0, "stability_table": 12.0, "mechanism_part": 5.0}
-_MEASURED |= {"continuum_part": 120.0}
 _START = 10.0  #: s to start a job on a busy machine
 _MARGIN = 3.0  #: for slower processors and strong disorder, which makes runs 1.4 times as long
 _BASE = 350  #: MB for Python and its libraries, measured: 250
@@ -29,23 +22,6 @@ def cpu_seconds(scene: Scene, setup: Setup, duration: float | None) -> float:
     duration = duration or setup.loading_time(scene.contact, setup.material.mu_static)
     rate = INTEGRATORS[setup.integrator].rate
     return duration / setup.step * math.prod(scene.shape) * rate
-
-
-def expected(scene: Scene, setup: Setup, duration: float | None, realisations: int = 1) -> float:
-    """CPU time in s that a job of realisations takes on average, a prelude as one realisation."""
-    return _BEGIN + _SHARE * realisations * cpu_seconds(scene, setup, duration)
-
-
-def expected_of(rule: str) -> float:
-    """CPU time in s that a job of another rule takes."""
-    return _MEASURED.get(rule, _OTHER)
-
-
-def in_words(times: Sequence[float], cores: int) -> str:
-    """Say how long jobs with these CPU times in s take together on so many cores."""
-    expected = max(sum(times) / cores, max(times)) / 60.0
-    said = f"{expected / 60.0:.1f} hours" if expected > 100.0 else f"{math.ceil(expected)} min"
-    return f"about {said} on {cores} core{'s' if cores > 1 else ''}"
 
 
 def minutes(scene: Scene, setup: Setup, duration: float | None, realisations: int = 1) -> int:

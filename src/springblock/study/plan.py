@@ -14,8 +14,7 @@ from springblock.mechanism.surfaces import TABLES
 from springblock.model.blockmap import Cut
 from springblock.model.scene import Scene
 from springblock.plotting import figures
-from springblock.plotting.caption import file_name
-from springblock.plotting.declaration import Declaration, having
+from springblock.plotting.declaration import Declaration, file_name, having
 from springblock.plotting.lines import axes
 from springblock.provenance import digest, digest_of_data
 from springblock.simulation.setup import Setup
@@ -263,9 +262,7 @@ class Plan:
             of = [f"--of {observable}" for observable in self.sweeps[figure].get("of", [])]
             return " ".join(["plot", "--over", self.sweeps[figure]["over"], *of])
         lengths, declared = self._lengths(figure), self.figures[figure]
-        caption = declared.caption_in(self.drawn, lengths, self.setup.material)
-        options = declared.options(self.configuration["n_blocks"], lengths)
-        return f"figure {figure} {options} --caption {quote(caption)}"
+        return f"figure {figure} {declared.options(self.configuration['n_blocks'], lengths)}"
 
 
 def _runs(job: Any) -> int:

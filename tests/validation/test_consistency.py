@@ -1,0 +1,80 @@
+"""Small ensembles have the recorded physics on any processor and with any versions of packages.
+
+Rounding changes the last bits of a run, and avalanches amplify them. If only rounding has changed,
+a run is as likely above its record as below: Wilcoxon's signed-rank test over seeds, at 1 % for all
+nine samples together. (Climate models are tested so after a change of machine: Baker et al. 2015,
+doi:10.5194/gmd-8-2829-2015.)
+
+    PYTHONPATH=tests python tests/validation/test_consistency.py    # records again
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from scipy.stats import wilcoxon
+
+from springblock import Material, Pattern, Setup, Surface, compute_prelude, simulate
+
+SCENES = {
+    "flat": Pattern.flat(16),
+    "pillars": Pattern.pillars(16, 4, 4),
+    "grooves": Pattern.pillars(28, 22, 6).grooved(4, 2),
+}
+SEEDS = 50
+OBSERVABLES = ["static_friction", "t_max", "t_avg"]
+RECORD = Path(__file__).with_name("consistency.csv")
+LEVEL = 0.01 / (len(SCENES) * len(OBSERVABLES))
+ROUNDING = 1e-9  #: largest relative difference that no avalanche has amplified
+
+
+def ensembles(setup):
+    """Observables of all realisations, by scene and seed."""
+    rows = {}
+    for scene, pattern in SCENES.items():
+        prelude = compute_prelude(pattern.contact, setup)
+        for seed in range(SEEDS):
+            surface = Surface.draw(pattern.contact, seed, setup.material)
+            run = simulate(surface, setup, prelude=prelude)
+            rows[scene, seed] = [getattr(run, name) for name in OBSERVABLES]
+    index = pd.MultiIndex.from_tuples(rows, names=["scene", "seed"])
+    return pd.DataFrame(rows.values(), index, OBSERVABLES)
+
+
+def changed(found):
+    """Scenes and observables whose differences from the record are more than rounding."""
+    recorded = pd.read_csv(RECORD, index_col=["scene", "seed"])
+    apart = found / recorded - 1.0
+    return [
+        (scene, name)
+        for scene, values in apart.where(apart.abs() > ROUNDING).groupby("scene")
+        for name in OBSERVABLES
+        if (differing := values[name].dropna()).size and wilcoxon(differing).pvalue < LEVEL
+    ]
+
+
+def test_this_processor_and_these_packages_give_the_recorded_physics():
+    assert changed(ensembles(Setup())) == []
+
+
+@pytest.mark.parametrize(
+    ("setup", "least"), [(Setup(step=4e-8), 1), (Setup(Material(mu_dynamic=0.995 * 0.6)), 5)]
+)
+def test_changed_physics_is_found(setup, least):
+    found = changed(ensembles(setup))
+    assert ("flat", "t_avg") in found
+    assert len(found) >= least
+
+
+def test_rounding_raises_few_false_alarms(rng):
+    """In all runs or in some, by much in a few: avalanches that take another order."""
+    recorded, alarms, tries = pd.read_csv(RECORD, index_col=["scene", "seed"]), 0, 100
+    for share in rng.uniform(size=tries):
+        hit = rng.uniform(size=recorded.shape) < share
+        alarms += bool(changed(recorded * (1.0 + 1e-4 * hit * rng.standard_t(1.5, hit.shape))))
+    assert alarms / tries < 0.01 + 3.0 * np.sqrt(0.01 / tries)
+
+
+if __name__ == "__main__":
+    ensembles(Setup()).to_csv(RECORD)
