@@ -1,10 +1,5 @@
 # Numerical errors, simpler models, the continuum limit, and verdicts on the paper's statements.
 
-#: Tables whose rows need no realisations, and the step whose code makes each of them or of their parts.
-STEPS = {table: table.partition("_")[0] for table in PLANNED.measured}
-STEPS |= dict.fromkeys(["work_precision", "production", "stability"], "accuracy")
-STEPS |= {part: STEPS[table] for table, parts in PLANNED.measured.items() for part in parts}
-
 
 rule part:
     """Measure errors, or compare models with the simulation, on one surface."""
@@ -16,7 +11,7 @@ rule part:
         f"{RESULTS}/logs/parts/{{part}}.log",
     priority: 1  # the longest jobs begin first, so that none of them is left alone at the end
     params:
-        code=lambda wildcards: digest(STEPS[wildcards.part]),
+        code=lambda wildcards: digest(PLANNED.step(wildcards.part)),
         ensembles=lambda wildcards: PLANNED.sampled(wildcards.part),
     shell:
         "springblock make {wildcards.part} {params.ensembles} --output {output:q} > {log:q} 2>&1"
@@ -25,7 +20,7 @@ rule part:
 rule parts:
     """Make the parts of all tables."""
     input:
-        expand(rules.part.output, part=STEPS.keys() - PLANNED.measured.keys() | {"stability"}),
+        expand(rules.part.output, part=sum(PLANNED.measured.values(), [])),
     localrule: True
 
 
@@ -42,7 +37,7 @@ for table, parts in PLANNED.measured.items():
         log:
             f"{RESULTS}/logs/{table}_table.log",
         params:
-            code=code(STEPS[table]),
+            code=code(PLANNED.step(table)),
         shell:
             "springblock make collect {input:q} --output {output:q} > {log:q} 2>&1"
 

@@ -148,6 +148,11 @@ class Plan:
             "continuum": [f"continuum-{part}" for part in CELLS],
         }
 
+    def step(self, name: str) -> str:
+        """Return the step whose code makes such a table or part of one."""
+        chapter = name.replace("_", "-").partition("-")[0]
+        return chapter if chapter in ("mechanism", "continuum") else "accuracy"
+
     @property
     def held(self) -> list[str]:
         """Return those of these tables that belong to the study."""
