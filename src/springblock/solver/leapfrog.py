@@ -345,7 +345,7 @@ def totals(rows):
 
 
 class Work(NamedTuple):
-    """Work arrays of the leapfrog on one core."""
+    """Work arrays of the leapfrog."""
 
     rows: Rows
     scratch: Scratch
