@@ -8,7 +8,7 @@ from pathlib import Path
 KERNELS = """
 import logging
 import numpy as np
-from springblock.solver.compilation import add, kernel
+from springblock.solver.compilation import kernel
 
 logging.basicConfig(format="%(message)s")
 
@@ -22,7 +22,7 @@ def doubled(x):
 def summed(x):
     total = 0.0
     for i in range(len(x)):
-        total = add(total, x[i])
+        total += x[i]
     return total
 
 assert doubled(np.arange(5.0)) == 8.0 and summed(np.arange(4.0)) == 6.0
