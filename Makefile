@@ -83,7 +83,7 @@ test-versions:
 
 # Lines and branches of the model that the tests do not reach, in six minutes. Coverage sees a kernel
 # only if it is interpreted, which is slow: the tests named here reach every line in few steps.
-INTERPRETED := test_springs or test_release or test_laws or (small and 7-3) or wherever_it_is \
+INTERPRETED := test_springs or test_release or test_laws or wherever_it_is \
     or ((each_step or whole_runs) and grooves) or (stress_stays and leapfrog) or burst_alone \
     or collapses or turns_negative
 coverage: setup-tests
@@ -91,7 +91,7 @@ coverage: setup-tests
 	$(BIN)/coverage run -m pytest $(PARALLEL) $(addprefix tests/,model analysis simulation solver \
 	    cli claims/test_rule.py claims/test_samples.py validation/test_law_files.py)
 	NUMBA_DISABLE_JIT=1 $(BIN)/coverage run -m pytest -W ignore $(PARALLEL) --dist load \
-	    $(addprefix tests/solver/test_,springs.py release.py laws.py parallel.py) \
+	    $(addprefix tests/solver/test_,springs.py release.py laws.py leapfrog.py) \
 	    $(addprefix tests/simulation/test_,fields.py simulation.py) \
 	    $(addprefix tests/validation/test_,lattice.py law_files.py specification.py) \
 	    -k "$(INTERPRETED)"

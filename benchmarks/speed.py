@@ -4,16 +4,13 @@ kernel       one step with all blocks moving, N = 120: both integrators, the sam
              LAMMPS, and a direct Runge-Kutta method; ratio to the leapfrog
 realisation  whole runs, from zero and with the prelude; ratio to as many steps of 1e-8 s in C
 scaling      a step of the leapfrog with all blocks moving; ratio to N = 120
-cores        a step of the leapfrog on one core and on all; ratio to one core
 
-Values are medians of the repetitions, in CPU time, or wall time for `cores`. All codes of a
-comparison run in turn, and ratios are medians of the ratios within repetitions.
+Values are medians of the repetitions, in CPU time. All codes of a comparison run in turn, and
+ratios are medians of the ratios within repetitions.
 """
 
-import os
 import platform
 import re
-import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import partial
@@ -60,8 +57,6 @@ PLAIN_N = 40
 
 SIZES = (16, 30, 60, 120, 250, 500, 1000, 2000)
 BLOCK_STEPS = 4_000_000  #: per repetition, whatever the size
-LONGER = 100  #: times as many on several cores, whose threads begin anew with every call
-LARGE = (500, 2000)  #: surfaces that several cores may share
 
 PER_STEP = "ns per block and step"
 Steps = Callable[[int], object]  #: takes so many steps
@@ -81,10 +76,10 @@ class Solver:
         self.velocity[0][:], self.velocity[1][:] = velocity
         self.advance(min(WARM_UP, 1 + BLOCK_STEPS // n**2))
 
-    def advance(self, steps: int, cores: int = 1) -> None:
+    def advance(self, steps: int) -> None:
         """Take so many steps."""
         how = INTEGRATORS[self.integrator], self.state, self.constants
-        advance(*how, self.taken, steps, steps, Samples.empty(1), cores)
+        advance(*how, self.taken, steps, steps, Samples.empty(1))
         self.taken += steps
 
 
@@ -190,19 +185,7 @@ def scaling() -> Iterator[Row]:
         yield row(f"N = {n}", each, PER_STEP, cost[N])
 
 
-def cores() -> Iterator[Row]:
-    """Large surfaces on one core and on all there are."""
-    numbers = sorted({1, os.cpu_count() or 1})
-    for n in LARGE:
-        solver, steps = Solver("leapfrog", n), max(1, LONGER * BLOCK_STEPS // n**2)
-        runs: Runs = {f"N = {n}, cores = {k}": partial(solver.advance, steps, k) for k in numbers}
-        seconds = interleaved(runs, FEW, time.perf_counter)
-        cost = {name: 1e9 * each / steps / n**2 for name, each in seconds.items()}
-        for name, each in cost.items():
-            yield row(name, each, PER_STEP, cost[f"N = {n}, cores = 1"])
-
-
-PARTS = {part.__name__: part for part in (kernel, realisation, scaling, cores)}
+PARTS = {part.__name__: part for part in (kernel, realisation, scaling)}
 
 
 def machine() -> str:

@@ -30,7 +30,7 @@ def test_the_benchmark_prints_one_table(monkeypatch):
         raise Missing("not installed")
 
     small = {"N": 8, "REPETITIONS": 2, "FEW": 1, "PLAIN_N": 6, "SCENES": {"flat": Scene(8)}}
-    small |= {"SIZES": (4, 8), "LARGE": (8,), "BLOCK_STEPS": 2000}
+    small |= {"SIZES": (4, 8), "BLOCK_STEPS": 2000}
     for name, value in small.items():
         monkeypatch.setattr(speed, name, value)
     monkeypatch.setattr(lammps_lattice, "require", absent)

@@ -12,7 +12,6 @@ import pytest
 from springblock.files import BLANK, read_arrays, write_sealed
 from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
-from springblock.simulation.checkpoint import Checkpoint
 from springblock.simulation.prelude import Prelude
 from studies import ROOT, Study
 
@@ -90,12 +89,10 @@ def test_a_packed_bomb_is_not_unpacked(tmp_path, monkeypatch):
         read_arrays(file)
 
 
-def test_preludes_and_checkpoints_are_read_that_way(tmp_path):
+def test_preludes_are_read_that_way(tmp_path):
     trap = packed(tmp_path / "trap.npz", conditions=PICKLE)
     with zipfile.ZipFile(trap, "a") as archive:
         archive.comment = BLANK
     write_sealed(trap, trap.read_bytes())
     with pytest.raises(ValueError, match=r"trap.npz is not a prelude"):
         Prelude.read(trap)
-    with pytest.raises(ValueError, match=r"trap.npz is not a checkpoint"):
-        Checkpoint(trap, 1.0, {}).resume(None)

@@ -1,18 +1,13 @@
 """springblock compile, prelude and simulate."""
 
-import importlib
 import json
-import signal
-import subprocess
-import sys
-import time
 
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
 import xarray
 
-from springblock import Prelude, read, simulate
+from springblock import Prelude, read
 from springblock.simulation.fields import Fields
 from springblock.simulation.prelude import HOLDING
 
@@ -83,7 +78,6 @@ def test_means_of_a_batch_are_printed_with_their_standard_errors(springblock, tm
         (["--mu-static", __file__], "'--mu-static': "),
         (["--fields", "a.nc"], "--fields a.nc needs times: give one or more with --snapshot"),
         (["--fields", "a.nc", "--snapshot", 2e-7, "--last-seed", 1], "takes one seed, not 2"),
-        (["--checkpoint", 1, "--last-seed", 1], "--checkpoint takes one seed, not 2; for more"),
         (["--material", "gamma=1", "--material", "gamma=2"], "gamma is given twice, as 1 and 2"),
         (["--vary", "gamma=1", "--vary", "gamma=2"], "'--vary': gamma is given twice, as 1 and"),
         (["--law", "a.py", "--material", "law=coulomb"], "the law is given twice, as coulomb and"),
@@ -102,51 +96,15 @@ def test_a_run_has_a_surface(springblock, tmp_path):
     assert "the surface has no size" in said
 
 
-def test_fields_are_written_beside_the_run_and_go_on_with_it(springblock, tmp_path):
-    """With checkpoints or without, to the bit."""
-    run, plain, kept = (tmp_path / name for name in ("run", "plain.nc", "kept.nc"))
+def test_fields_are_written_beside_the_run(springblock, tmp_path):
+    run, file = tmp_path / "run", tmp_path / "fields.nc"
     asked = ("simulate", *FLAT, "--duration", 4e-6, "--snapshot", 2e-6, "--output")
-    springblock(*asked, run, "--fields", plain)
-    springblock(*asked, run, "--fields", kept, "--checkpoint", 1)
-    assert plain.read_bytes() == kept.read_bytes()
-    with xarray.open_dataset(plain) as data:
+    springblock(*asked, run, "--fields", file)
+    with xarray.open_dataset(file) as data:
         fields, about = Fields.from_xarray(data), data.attrs
     assert (about["seed"], about["scene"]) == ("0", "n_blocks = 6, level = 0, direction = x")
     assert (about["gamma"], about["law"]) == (5e3, "coulomb")
     np.testing.assert_array_equal(read(run)[0].snapshots, fields.displacement)
-
-
-LONG = ("simulate", "--n-blocks", 24, "--n-p", 6, "--n-s", 6)
-OFTEN = ("--checkpoint", 1e-9)  # minutes
-
-
-def test_a_run_that_was_killed_goes_on_to_the_same_bytes(springblock, tmp_path):
-    words = (*LONG, *OFTEN, "--output", tmp_path / "a.parquet")
-    kept, whole = tmp_path / "a.parquet.checkpoint", tmp_path / "whole.parquet"
-    command = [sys.executable, "-m", "springblock", *map(str, words)]
-    with subprocess.Popen(command) as run:
-        while not kept.exists():
-            assert run.poll() is None
-            time.sleep(0.002)
-        run.send_signal(signal.SIGKILL)
-    assert run.returncode == -signal.SIGKILL
-    springblock(*words)
-    springblock(*LONG, "--output", whole)
-    assert (tmp_path / "a.parquet").read_bytes() == whole.read_bytes()
-    assert not kept.exists()
-
-
-def test_checkpoints_are_minutes_apart(springblock, tmp_path, monkeypatch):
-    module, apart = importlib.import_module("springblock.simulation.scenes"), []
-
-    def run(*args, checkpoint_interval, **how):
-        apart.append(checkpoint_interval)
-        return simulate(*args, checkpoint_interval=checkpoint_interval, **how)
-
-    monkeypatch.setattr(module, "simulate", run)
-    words = ("--duration", 2e-6, "--checkpoint", 2, "--output", tmp_path / "a")
-    springblock("simulate", *FLAT, *words)
-    assert apart == [120.0]  # s
 
 
 def test_a_run_that_fails_is_named(springblock, tmp_path):

@@ -39,14 +39,18 @@ def test_any_processor_finds_the_same_run_up_to_its_peak(tmp_path):
     np.testing.assert_allclose(generic["t_det"][before], here.t_det[before], rtol=TOLERANCE)
 
 
-#: On x86-64, whatever the processor, code for one with AVX-512; elsewhere code for this one.
+#: On x86-64, whatever the processor, the command line on one with AVX-512; elsewhere on this one.
 WIDE = """
 import platform
+from pathlib import Path
 import llvmlite.binding as llvm
+from springblock import cli
 if platform.machine() == "x86_64":
     has = {"avx512f": True, "avx512vl": True}
     llvm.get_host_cpu_name = lambda: "skylake-avx512"
     llvm.get_host_cpu_features = lambda: llvm.targets.FeatureMap(has)
+    cli._PROCESSOR = Path(__file__)
+cli.use_long_vectors()
 from numba import float64
 from springblock.solver.compilation import add, kernel
 
@@ -70,6 +74,7 @@ X86 = platform.machine() == "x86_64"
 def test_vectors_are_as_wide_as_the_processor_has_them(chosen, wide, tmp_path):
     """512 bits (zmm) with AVX-512, unless the user has chosen a processor; none elsewhere."""
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path), **chosen}
+    environment.pop("NUMBA_CPU_FEATURES", None)  # of a command called before in this process
     script = tmp_path / "wide.py"
     script.write_text(WIDE)
     command = [sys.executable, str(script)]

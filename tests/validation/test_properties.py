@@ -136,14 +136,12 @@ def test_a_larger_modulus_and_pressure_are_a_slower_slider(case, power):
 
 
 @given(cases(), st.integers(1, STEPS // 10 - 1))
-def test_no_bit_depends_on_prelude_cores_or_snapshots(case, sample):
+def test_no_bit_depends_on_prelude_or_snapshots(case, sample):
     surface, setup = case.surface, case.setup
     how = setup, case.direction, surface.periodic
     prelude = compute_prelude(surface.contact, *how, mu_static=surface.mu_static)
     watched = {"snapshot_times": [sample * setup.sample_interval]}
     runs = [case.run(**options) for options in ({}, watched, watched | {"prelude": prelude})]
-    if INTEGRATORS[setup.integrator].uses_cores:
-        runs.append(case.run(cores=2))
     for run in runs[1:]:
         for name in ("force", "t_det", "switches", "displacement", "velocity"):
             np.testing.assert_array_equal(getattr(run, name), getattr(runs[0], name))

@@ -8,11 +8,11 @@ to rest. SI units; not optimised: the force of the first stage is evaluated twic
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 
 from springblock.model.material import Material
 from springblock.model.numbers import Array
 from springblock.model.surface import Surface
-from springblock.solver.compilation import cached_njit
 
 
 @dataclass
@@ -28,7 +28,7 @@ class Solution:
     steps: int
 
 
-@cached_njit
+@njit(cache=True)
 def _accelerations(r, v, sliding, contact, mu_d_load, t, c, a, motive):
     n_y, n_x = contact.shape
     k_int, k_s, mass, length, gamma, speed = c
@@ -59,7 +59,7 @@ def _accelerations(r, v, sliding, contact, mu_d_load, t, c, a, motive):
             a[y, x, 1] = (fy / mass - gamma * v[y, x, 1]) if moves else 0.0
 
 
-@cached_njit
+@njit(cache=True)
 def _integrate(contact, mu_s_load, mu_d_load, c, h, every, force, t_det):
     n_y, n_x = contact.shape
     r, v, motive = np.zeros((n_y, n_x, 2)), np.zeros((n_y, n_x, 2)), np.zeros((n_y, n_x))

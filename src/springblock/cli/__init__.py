@@ -7,7 +7,7 @@ import signal
 import sys
 import traceback
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from pkgutil import resolve_name
 from textwrap import shorten
@@ -36,6 +36,7 @@ COMMANDS = {
 
 
 _PACKAGE = str(Path(__file__).parents[1])  #: its own errors need no explanation
+_PROCESSOR = Path("/proc/cpuinfo")  #: of Linux
 
 
 @contextmanager
@@ -70,6 +71,22 @@ def sentence(error: Exception) -> str:
     return f"{command}: {error!r}; SPRINGBLOCK_TRACEBACK=1 shows where this happened"
 
 
+def use_long_vectors() -> None:
+    """Let numba, which is not loaded yet, use vectors of 512 bits on processors that have them.
+
+    LLVM prefers 256, since the first of these processors reduced their clock rate for longer ones.
+    A processor or features that the user has chosen stay.
+    """
+    if {"NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES"} & os.environ.keys():
+        return
+    with suppress(OSError), _PROCESSOR.open(encoding="utf-8") as file:
+        if "avx512f" in file.read(8192):  # otherwise save the import
+            from llvmlite.binding import get_host_cpu_features
+
+            features = get_host_cpu_features().flatten()
+            os.environ["NUMBA_CPU_FEATURES"] = f"{features},-prefer-256-bit"
+
+
 class _LazyGroup(click.Group):
     """Commands imported when they are called, whose errors and interruption end in one line."""
 
@@ -92,6 +109,7 @@ class _LazyGroup(click.Group):
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # idle threads would spin
         os.environ["MPLBACKEND"] = "agg"  # that of a notebook's kernel may be unknown here
         os.environ.pop("NUMBA_DISABLE_JIT", None)  # kernels have parts that are only compiled
+        use_long_vectors()
         command: click.Command = resolve_name(COMMANDS[cmd_name])
         return command
 

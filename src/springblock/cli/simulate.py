@@ -89,20 +89,18 @@ def setup_of(options: dict[str, Any]) -> Setup:
 #: As in the configuration of the study: up to a million seeds, from 1e18 at most.
 _MOST_SEEDS = 10**6
 _SEED = click.IntRange(0, 10**18 + _MOST_SEEDS)
-_CORES = defaulted("--cores", type=int, default=1, help="Cores for one large surface.")
 
 
 @click.command("prelude")
 @setup_options
-@_CORES
 @click.option("--output", type=Output(".npz"), required=True, help="File of type .npz.")
-def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
+def prelude(scene: Scene, setup: Setup, output: Path) -> None:
     """Compute the loading of a scene up to its first detachment.
 
     All seeds of the scene share it.
     """
     version = made_by("simulate")["code_version"]
-    replace(prelude_of(scene, setup, cores), code_version=version).save(output)
+    replace(prelude_of(scene, setup), code_version=version).save(output)
 
 
 @click.command("simulate")
@@ -131,14 +129,6 @@ def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
     type=INPUT,
     help="File of `springblock prelude` for this scene, to save computing it again.",
 )
-@_CORES
-@click.option(
-    "--checkpoint",
-    "minutes",
-    type=click.FloatRange(min=0.0, min_open=True),
-    help="Minutes between checkpoints. After an interruption the same command continues from the "
-    "file OUTPUT.checkpoint, which is removed at the end. One seed.",
-)
 @click.option("--output", type=Output(".parquet"), required=True, help="Parquet file.")
 def simulate_batch(
     scene: Scene,
@@ -149,8 +139,6 @@ def simulate_batch(
     snapshot_times: tuple[float, ...],
     field_file: Path | None,
     prelude: Path | None,
-    cores: int,
-    minutes: float | None,
     output: Path,
 ) -> None:
     """Simulate realisations of one scene.
@@ -163,18 +151,11 @@ def simulate_batch(
     if len(seeds) > _MOST_SEEDS:
         raise click.BadParameter(f"{len(seeds)} seeds in a batch; choose up to {_MOST_SEEDS}")
     single = len(seeds) == 1
-    if minutes is not None and not single:
-        raise ValueError(
-            f"--checkpoint takes one seed, not {len(seeds)}; for more, use `springblock sweep`"
-        )
     _check_fields(field_file, snapshot_times, seeds)
     own, rows = identity(scene, setup, duration, snapshot_times), list[Row]()
     metadata(own)  # refuses code that has changed before it runs for long
     asked: dict[str, Any] = {"duration": duration, "snapshot_times": snapshot_times}
-    how = {"prelude": prelude and _prelude(prelude), "cores": cores, "progress": single, **asked}
-    if minutes is not None:
-        how["checkpoint"] = output.with_name(f"{output.name}.checkpoint")
-        how["checkpoint_interval"] = 60.0 * minutes
+    how = {"prelude": prelude and _prelude(prelude), "progress": single, **asked}
     counted = tqdm(seeds, desc=scene.folder, unit="realisation", disable=single)
     with logging_redirect_tqdm(), counted as bar:
         for seed in bar:

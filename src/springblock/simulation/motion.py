@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from springblock.model.direction import heading
-from springblock.model.numbers import Array, check_whole
+from springblock.model.numbers import Array
 from springblock.model.surface import Surface
 from springblock.simulation.setup import Setup
 from springblock.solver.integrators import INTEGRATORS
@@ -29,13 +29,9 @@ class Motion:
         surface: Surface,
         setup: Setup,
         direction: str | float,
-        cores: int = 1,
         keep_peak: bool = False,
     ) -> None:
         self.setup, self.method = setup, INTEGRATORS[setup.integrator]
-        self.cores = check_whole("cores", cores)
-        if cores > 1 and not self.method.uses_cores:
-            raise ValueError(f"cores must be 1 with {setup.integrator}, not {cores}")
         how = setup.material, heading(direction), self.method, setup.step, keep_peak
         self.state, self.constants = prepare(surface, *how)
         self.samples = 0  #: recorded so far, without the initial one
@@ -60,7 +56,7 @@ class Motion:
         every, more, first = self.setup.every, until - self.samples, self.steps
         taken = Samples.empty(more)
         how = self.method, self.state, self.constants
-        done, row, column = advance(*how, first, more * every, every, taken, self.cores)
+        done, row, column = advance(*how, first, more * every, every, taken)
         now, law = (first + done) * self.setup.step, self.state.law
         if isinstance(law, FromFile) and law.failed[0] >= 0:
             raise SimulationError(f"before t = {now:.4g} s: {self._failure(law)}")

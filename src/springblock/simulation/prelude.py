@@ -133,7 +133,6 @@ def compute_prelude(
     setup: Setup = DEFAULT,
     direction: str | float = "x",
     periodic: bool = False,
-    cores: int = 1,
     mu_static: ArrayLike | None = None,
 ) -> Prelude:
     """Load a surface without detachment until a block would detach in most realisations.
@@ -148,7 +147,7 @@ def compute_prelude(
     strongest = material.mu_static if known is None else float(known.max())
     setup.plan(mask, strongest)  # refuses a run that would be too long
     surface = Surface(mask, 1.0, 0.0, periodic)
-    motion = Motion(surface, setup, direction, cores, keep_peak=True)
+    motion = Motion(surface, setup, direction, keep_peak=True)
     state, blocks, peak = motion.state, motion.state.blocks, motion.state.peak
     assert peak is not None
     bound, load = blocks.static > 0.0, float(blocks.static.max())

@@ -26,10 +26,10 @@ def surface_of(scene: Scene, seed: int, material: Material) -> Surface:
     return Surface(scene.contact, mu[0], mu[1], scene.is_periodic)
 
 
-def prelude_of(scene: Scene, setup: Setup, cores: int = 1) -> Prelude:
+def prelude_of(scene: Scene, setup: Setup) -> Prelude:
     """Compute the prelude of a scene."""
     known: Any = scene.mu_static_field and scene.mu_static_field.values
-    how = setup, scene.direction, scene.is_periodic, cores
+    how = setup, scene.direction, scene.is_periodic
     return compute_prelude(scene.contact, *how, mu_static=known)
 
 

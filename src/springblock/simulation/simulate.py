@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,6 @@ from springblock.model.direction import heading
 from springblock.model.numbers import Array
 from springblock.model.surface import Surface
 from springblock.simulation import resolution
-from springblock.simulation.checkpoint import Checkpoint, belonging
 from springblock.simulation.energy import Energy, elastic_energy
 from springblock.simulation.fields import Fields
 from springblock.simulation.motion import Motion, SimulationError
@@ -39,10 +37,7 @@ def simulate(
     duration: float | None = None,
     snapshot_times: Sequence[float] = (),
     prelude: Prelude | None = None,
-    cores: int = 1,
     progress: bool | None = None,
-    checkpoint: str | Path | None = None,
-    checkpoint_interval: float = 300.0,
 ) -> Realisation:
     """Pull one surface from rest and record force and detachments.
 
@@ -68,21 +63,14 @@ def simulate(
     prelude : Prelude
         States of the same scene before its first detachment, see `compute_prelude`. They save
         time; results are the same, but for the rounding of forces under a law from a file.
-    cores : int
-        Number of cores for the leapfrog on one large surface; results are the same to the bit.
     progress : bool, or None
         Whether to show a progress bar on stderr. None: on a terminal, in runs of more than 10 s.
-    checkpoint : Path
-        File for the state of the unfinished run. If it exists, the run continues from it, with the
-        same result to the bit; it is removed at the end.
-    checkpoint_interval : s
-        Wall-clock seconds between two checkpoints.
 
     Raises
     ------
     TypeError, ValueError
         If an argument is not valid, the surface was drawn with other constants than those of the
-        setup, or prelude or checkpoint belong to another run.
+        setup, or the prelude belongs to another run.
     SimulationError
         If the length of a spring is below 1/2 or above 2 times its rest length, or NaN (the message
         gives time and block), if a law from a file raises, or returns a negative or non-finite
@@ -96,22 +84,14 @@ def simulate(
     last_sample, at_samples = setup.plan(contact, strongest, duration, snapshot_times)
     latest = _LATEST * setup.loading_time(contact, strongest)
 
-    motion = Motion(surface, setup, direction, cores)
-    here = conditions(contact, setup, heading(direction), surface.periodic)
-    kept, snapshots = None, list[Array]()
-    if checkpoint is not None:
-        friction = surface.mu_static, surface.mu_dynamic
-        belongs = belonging(here, friction, duration=last_sample, snapshot_times=at_samples)
-        kept = Checkpoint(Path(checkpoint), checkpoint_interval, belongs)
-        snapshots = kept.resume(motion)
+    motion, snapshots = Motion(surface, setup, direction), list[Array]()
     if prelude is not None:
-        if prelude.conditions != here:
+        if prelude.conditions != conditions(contact, setup, heading(direction), surface.periodic):
             raise ValueError(
                 "this prelude belongs to another scene, material, integrator, step or "
                 "sample_interval"
             )
-        if not motion.samples:
-            prelude.start(motion, min([*at_samples, last_sample or math.inf]) - 1)
+        prelude.start(motion, min([*at_samples, last_sample or math.inf]) - 1)
     hidden = None if progress is None else not progress  # None: unless stderr is a terminal
     shown: dict[str, Any] = {"disable": hidden, "delay": 0.0 if progress else _SOON}
     until = last_sample or max(at_samples, default=None)
@@ -124,12 +104,8 @@ def simulate(
                 snapshots.append(_snapshot(motion))
             motion.proceed(pause)
             bar.update(motion.samples - bar.n)
-            if kept is not None and kept.is_due:
-                kept.save(motion, snapshots)
     run = _result(motion, snapshots, at_samples)
     resolution.warn(surface, setup.material, run)
-    if kept is not None:
-        kept.path.unlink(missing_ok=True)
     return run
 
 

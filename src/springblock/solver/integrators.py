@@ -28,7 +28,6 @@ class Integrator(NamedTuple):
     force_evaluations: int  #: per step
     rate: float  #: CPU seconds per block and step with all blocks moving, measured by `make bench`
     staggered: bool  #: whether velocities are known half a step before displacements
-    uses_cores: bool  #: whether it runs on several cores
     keeps_state: bool  #: whether it runs with laws from files and without healing
     force_time: Callable[[float, float], float]  #: (h, gamma) -> time for which a force acts, s
     #: (h, angular frequencies, gamma) -> whether no such mode grows.
@@ -72,7 +71,6 @@ LEAPFROG = Integrator(
     force_evaluations=1,
     rate=4.5e-9,
     staggered=True,
-    uses_cores=True,
     keeps_state=True,
     force_time=leapfrog_force_time,
     is_stable=leapfrog_is_stable,
@@ -83,7 +81,6 @@ RK4 = Integrator(
     force_evaluations=4,
     rate=33e-9,
     staggered=False,
-    uses_cores=False,
     keeps_state=False,
     force_time=lambda step, gamma: step,  # damping is a force
     is_stable=rk4_is_stable,

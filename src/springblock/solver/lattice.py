@@ -57,7 +57,6 @@ class Lattice(NamedTuple):
     blocks: Blocks
     ledger: Array  #: (3,) sums over steps, see `WORK`
     peak: Array | None  #: running maximum of |F_mot|², for a prelude only
-    in_contact: NDArray[np.bool_]  #: (N_y,) whether a row holds any block in contact
     law: KernelLaw  #: law of friction; None for a prelude, in which no block detaches
 
     def copy(self) -> "Lattice":
@@ -144,7 +143,6 @@ def prepare(
         blocks=blocks,
         ledger=np.zeros(3),
         peak=field() if keep_peak else None,
-        in_contact=np.asarray(contact.any(axis=1)),
         law=None
         if keep_peak
         else law_of(material, step, load * velocity_per_force, blocks.static > 0.0),

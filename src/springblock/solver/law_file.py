@@ -73,6 +73,10 @@ class FromFile(NamedTuple):
         return max(0.5, 1.0 - speed / max(fast - slow, speed))
 
     @staticmethod
+    def surely_holds(law, row, fx, fy, static, dynamic):
+        return False  # the file is asked in each step, and may fail
+
+    @staticmethod
     def threshold_of(law, row, static, dynamic):
         return max(static, _friction(law, row, 0.0, static, dynamic))
 

@@ -40,6 +40,8 @@ from springblock.solver.springs import aligned
 
 #: Values, in the kernels' units, beyond which d_c and v_c act as zero or infinity.
 _LEAST, _MOST = 1e-100, 1e100
+#: Relative margin, against rounding, of the strength of blocks that are known to stay at rest.
+MARGIN = 1e-9
 #: Slip before a step that counts as zero, relative to the slip within the step.
 _NO_SLIP = 1e-12
 
@@ -58,6 +60,11 @@ class Coulomb:
     @staticmethod
     def strength_of(law, row, static, dynamic):
         return static
+
+    @staticmethod
+    def surely_holds(law, row, fx, fy, static, dynamic):
+        strength = (1.0 - MARGIN) * strength_of(law, row, static, dynamic)
+        return fx * fx + fy * fy <= strength * strength
 
     @staticmethod
     def threshold_of(law, row, static, dynamic):
@@ -186,6 +193,8 @@ end_weight = method("end_weight", Coulomb)
 #: (law, row, static, dynamic) -> largest force on a block at rest, or that reverses, which holds
 #: it: mu_s F_n, unless it has lost strength.
 strength_of = method("strength_of", Coulomb)
+#: (law, row, fx, fy, static, dynamic) -> whether a block at rest stays so whatever the rounding.
+surely_holds = method("surely_holds", Coulomb)
 #: (law, row, static, dynamic) -> threshold of the force on a block at rest, F_c.
 threshold_of = method("threshold_of", Coulomb)
 #: (law, b) -> row with the state of block b one step before.

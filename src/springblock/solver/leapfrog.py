@@ -30,21 +30,22 @@ from springblock.solver.lattice import (
     close_rows,
     index_of,
     slider_at,
+    unpadded,
     update_peaks,
 )
 from springblock.solver.laws import (
+    MARGIN,
     resistance,
     row_at_release,
     row_before,
     store_state,
     strength_of,
+    surely_holds,
     threshold_of,
 )
 from springblock.solver.release import Releases, force_in_patch, make_releases, release_theta
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, TURNS, Scratch, U, forces_on_band
 
-#: Relative margin, against rounding, on the estimated number of steps that a row stays at rest.
-_SLACK = 1e-9
 #: Effectively infinite number of steps.
 _FOREVER = 1e15
 
@@ -53,6 +54,8 @@ class Rows(NamedTuple):
     """State of each row of blocks."""
 
     in_contact: NDArray[np.bool_]  #: (N_y,) whether any block is in contact
+    all_in_contact: NDArray[np.bool_]  #: (N_y,) whether all blocks are
+    held: NDArray[np.bool_]  #: (N_y,) whether no block in contact moved in the last step
     awake: NDArray[np.bool_]  #: (N_y + 1,) whether its blocks are computed in this step
     due: NDArray[np.int64]  #: (N_y,) step in which it must be computed at the latest
     sliding: NDArray[np.bool_]  #: (N_y + 2,) whether any block moves, with a row beyond each edge
@@ -62,13 +65,24 @@ class Rows(NamedTuple):
     squares: Array
 
 
-def make_rows(in_contact: NDArray[np.bool_], periodic: bool) -> Rows:
-    """Return the state of rows that are all to be computed in the first step."""
-    n = len(in_contact)
+def make_rows(contact: NDArray[np.bool_], periodic: bool) -> Rows:
+    """Return the state of the rows of `contact`, (N_y, N_x), all computed in the first step."""
+    n = len(contact)
     awake, sliding = np.ones(n + 1, np.bool_), np.ones(n + 2, np.bool_)
     awake[n] = periodic
     sliding[0] = sliding[n + 1] = False
-    return Rows(in_contact, awake, np.zeros(n, np.int64), sliding, *np.zeros((4, n)))
+    return Rows(
+        in_contact=contact.any(axis=1),
+        all_in_contact=contact.all(axis=1),
+        held=np.zeros(n, np.bool_),
+        awake=awake,
+        due=np.zeros(n, np.int64),
+        sliding=sliding,
+        x=np.zeros(n),
+        y=np.zeros(n),
+        heat=np.zeros(n),
+        squares=np.zeros(n),
+    )
 
 
 @njit(inline="always")
@@ -119,17 +133,62 @@ def _record_switches(blocks, released, count, band, s, row, now):
     return switches, count
 
 
+@njit(inline="always")
+def _holds(blocks, law, s, own, i, n):
+    """Return whether static friction holds all blocks in contact of a row at rest."""
+    holds = True
+    for x in range(ONE, n + ONE):
+        b, fx, fy = i + x, s.force[FORCE_X + own + x], s.force[FORCE_Y + own + x]
+        is_held = surely_holds(law, b, fx, fy, blocks.static[b], blocks.dynamic[b])
+        holds = holds & (is_held | (blocks.static[b] == 0.0))
+    return holds
+
+
+@kernel
+def _move_held_rows(blocks, law, rows, band, s, a):
+    """Kick and drift the free blocks of those rows whose blocks in contact stay at rest.
+
+    Blocks move as in `_move_rows_in_contact`, to the bit. Clears `held` of all other rows.
+    """
+    ux, uy, vx, vy = blocks.ux, blocks.uy, blocks.vx, blocks.vy
+    for row in range(band.start, band.stop):
+        i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
+        if not (rows.held[row] and rows.awake[row]):
+            continue
+        if not _holds(blocks, law, s, own, i, band.grid.n_x):
+            rows.held[row] = False
+            continue
+        sum_x, sum_y, squares = 0.0, 0.0, 0.0
+        for x in range(ONE, band.grid.width + ONE):
+            b = i + x
+            fx, fy = s.force[FORCE_X + own + x], s.force[FORCE_Y + own + x]
+            old_x, old_y, from_x, from_y = vx[b], vy[b], ux[b], uy[b]
+            is_free = blocks.static[b] + blocks.dynamic[b] == 0.0  # neither bound nor a phantom
+            new_x, new_y = a * old_x + fx, a * old_y + fy
+            new_x, new_y = new_x if is_free else 0.0, new_y if is_free else 0.0
+            next_x, next_y = from_x + new_x, from_y + new_y
+            vx[b] = new_x
+            vy[b] = new_y
+            ux[b] = next_x
+            uy[b] = next_y
+            sum_x = add(sum_x, next_x)
+            sum_y = add(sum_y, next_y)
+            squares = add(squares, new_x * new_x + new_y * new_y)
+        rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band.grid, sum_x, sum_y)
+        rows.heat[row], rows.squares[row] = 0.0, squares
+
+
 @kernel
 def _move_rows_in_contact(blocks, law, rows, released, count, band, s, a, now):
-    """Kick and drift the blocks of those rows of a band that are awake and hold contacts; record
-    switches and first detachments, and list releases.
+    """Kick and drift the blocks of those rows of a band that are awake, hold contacts and are not
+    held; record switches and first detachments, and list releases.
 
     Returns what `move_band` returns.
     """
     ux, uy, vx, vy = blocks.ux, blocks.uy, blocks.vx, blocks.vy
     static, dynamic, switches = blocks.static, blocks.dynamic, np.int64(0)
     for row in range(band.start, band.stop):
-        if not (rows.in_contact[row] and rows.awake[row]):
+        if not (rows.in_contact[row] and rows.awake[row]) or rows.held[row]:
             continue
         i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
         slide, switch = False, False
@@ -148,15 +207,17 @@ def _move_rows_in_contact(blocks, law, rows, released, count, band, s, a, now):
             ux[b] = next_x
             uy[b] = next_y
             s.row[TURNS + x] = w_dot_v
-            slide = slide | slides
-            switch = switch | (slides & (w_dot_v <= 0.0) & (static[b] > 0.0))
+            moves = slides & (static[b] > 0.0)
+            slide = slide | moves
+            switch = switch | (moves & (w_dot_v <= 0.0))
             sum_x = add(sum_x, next_x)
             sum_y = add(sum_y, next_y)
             # Friction work: the impulse of friction times the mean velocity of the step.
             impulse_x, impulse_y = trial_x - new_x, trial_y - new_y
             heat = add(heat, impulse_x * (old_x + new_x) + impulse_y * (old_y + new_y))
             squares = add(squares, new_x * new_x + new_y * new_y)
-        rows.sliding[row + ONE] = slide
+        rows.sliding[row + ONE] = slide or not rows.all_in_contact[row]
+        rows.held[row] = not slide
         rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band.grid, sum_x, sum_y)
         rows.heat[row], rows.squares[row] = 0.5 * heat, squares
         if switch:
@@ -283,7 +344,7 @@ def _steps_at_rest(blocks, law, s, own, i, n, pull):
         b, fx, fy = i + x, s.force[FORCE_X + own + x], s.force[FORCE_Y + own + x]
         strength = strength_of(law, b, blocks.static[b], blocks.dynamic[b])
         least = min(least, strength - math.sqrt(fx * fx + fy * fy))
-    return np.int64(min((1.0 - _SLACK) * least / pull, _FOREVER))
+    return np.int64(min((1.0 - MARGIN) * least / pull, _FOREVER))
 
 
 @kernel
@@ -308,6 +369,7 @@ def move_band(blocks, law, peak, rows, released, count, band, s, constants, now)
     a = math.exp(-constants.damping)
     pull = constants.springs.k_s * math.hypot(constants.slider_x, constants.slider_y)
     update_peaks(peak, band, s)
+    _move_held_rows(blocks, law, rows, band, s, a)
     switches, count = _move_rows_in_contact(blocks, law, rows, released, count, band, s, a, now)
     _move_free_rows(blocks, rows, band, s, a)
     _settle_rows(blocks, law, rows, band, s, pull, now)
@@ -345,7 +407,7 @@ def totals(rows):
 
 
 class Work(NamedTuple):
-    """Work arrays of the leapfrog on one core."""
+    """Work arrays of the leapfrog."""
 
     rows: Rows
     scratch: Scratch
@@ -354,9 +416,9 @@ class Work(NamedTuple):
     @classmethod
     def of(cls, state: Lattice, constants: Constants) -> "Work":
         """Return work arrays for the steps of one call."""
-        n_y, n_x = constants.grid.shape
-        rows = make_rows(state.in_contact, constants.grid.periodic is not None)
-        return cls(rows, Scratch.empty(), make_releases(n_y * n_x))
+        contact = unpadded(state.blocks.static, constants.grid) > 0.0
+        rows = make_rows(contact, constants.grid.periodic is not None)
+        return cls(rows, Scratch.empty(), make_releases(contact.size))
 
     @staticmethod
     def take_step(work, state, constants, k):

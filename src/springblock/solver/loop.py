@@ -1,11 +1,8 @@
-"""The time loop, the same for all integrators, on one core or several."""
-
-from concurrent.futures import ThreadPoolExecutor
+"""The time loop, the same for all integrators."""
 
 import numpy as np
 
 from springblock.model.numbers import Array
-from springblock.solver import parallel
 from springblock.solver.compilation import kernel, method
 from springblock.solver.integrators import Integrator
 from springblock.solver.lattice import HEAT, Constants, Lattice, Samples, tally
@@ -14,6 +11,7 @@ from springblock.solver.lattice import HEAT, Constants, Lattice, Samples, tally
 take_step = method("take_step")
 
 
+@kernel
 def _loop(work, state, constants, first, steps, every, samples):
     switches = np.int64(0)
     for k in range(first, first + steps):
@@ -25,9 +23,6 @@ def _loop(work, state, constants, first, steps, every, samples):
     return steps, np.int64(-1), np.int64(-1)
 
 
-_compiled_loop = kernel(_loop)
-
-
 def advance(
     integrator: Integrator,
     state: Lattice,
@@ -36,19 +31,13 @@ def advance(
     steps: int,
     every: int,
     samples: Samples,
-    cores: int = 1,
 ) -> tuple[int, int, int]:
     """Advance a state by `steps` steps from step `first` on, and sample after every `every` steps.
 
-    Returns the number of steps taken, and row and column of a broken spring, -1 if none is. On
-    several cores this loop is interpreted, and each step is compiled.
+    Returns the number of steps taken, and row and column of a broken spring, -1 if none is.
     """
-    rest = first, steps, every, samples
-    if cores == 1:
-        work = integrator.kernels.Work.of(state, constants)
-        return _compiled_loop(work, state, constants, *rest)
-    with ThreadPoolExecutor(cores) as executor:
-        return _loop(parallel.Work.of(state, constants, cores, executor), state, constants, *rest)
+    work = integrator.kernels.Work.of(state, constants)
+    return _loop(work, state, constants, first, steps, every, samples)
 
 
 def at_step(

@@ -214,8 +214,23 @@ def _end_of_diagonals(row, grid):
 
 
 @njit(inline="always")
-def _is_small(q):
-    return abs(q) <= SERIES_RANGE  # False for NaN
+def _largest(q):
+    """Return the largest |q| of four springs, NaN if that to the east is NaN.
+
+    A NaN in a displacement makes q of the block's spring to the east NaN. Each comparison is one
+    instruction, which keeps its second operand if one of them is NaN.
+    """
+    east, north, ne, nw = abs(q[0]), abs(q[1]), abs(q[2]), abs(q[3])
+    diagonal = ne if ne > nw else nw
+    largest = diagonal if diagonal > north else north
+    return largest if largest > east else east
+
+
+@njit(inline="always")
+def _clear_diagonals(pulls, edge, grid):
+    """Clear the forces of diagonal springs beyond an edge."""
+    for x in range(edge, grid.width + ONE):
+        pulls[NE_X + x], pulls[NE_Y + x], pulls[NW_X + x], pulls[NW_Y + x] = 0.0, 0.0, 0.0, 0.0
 
 
 @njit(inline="always")
@@ -225,14 +240,14 @@ def _pulls_by_series(ux, uy, row, band, s, c):
     Forces of diagonal springs have the stiffness of axial ones; `_sum_forces` halves them.
     """
     i, j = _row_offsets(row, band.grid)
-    edge, within = _end_of_diagonals(row, band.grid), True
+    within = True
     for x in range(ONE, band.grid.width + ONE):
         relative = _relative_displacements(ux, uy, i, j, x)
         q = _stretch(relative)
         p = _series(q, c)
-        within = within & _is_small(q[0]) & _is_small(q[1]) & _is_small(q[2]) & _is_small(q[3])
-        ne, nw = (q[2] * p[2], q[3] * p[3]) if x < edge else (0.0, 0.0)
-        _store_pulls(s.row, x, relative, q[0] * p[0], q[1] * p[1], ne, nw)
+        within = within & (_largest(q) <= SERIES_RANGE)
+        _store_pulls(s.row, x, relative, q[0] * p[0], q[1] * p[1], q[2] * p[2], q[3] * p[3])
+    _clear_diagonals(s.row, _end_of_diagonals(row, band.grid), band.grid)
     return within
 
 
