@@ -20,9 +20,7 @@ SLIDING   friction -mu_d F_n v/|v|. It ends when the speed falls below STOP_SPEE
           CREEPING once |v| is low enough and v along F_mot. Without that, a block with
           mu_s < mu_d, which follows the slider slowly and steadily, would make the equations stiff.
 
-A block that stops sticks if |F_mot| is below the static threshold, and starts afresh otherwise. A
-block that reverses only nearly turns around at a small speed, in practice never below STOP_SPEED.
-
+A block that stops sticks if |F_mot| is below the static threshold, and starts afresh otherwise.
 Units are scaled: force P l² (the load of one block on a flat surface), length P l² / K_s, time
 sqrt(m / K_s). Time counts from the last event, so that close events still resolve.
 """
@@ -35,7 +33,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.integrate import DOP853, DenseOutput
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import brentq
 from tqdm import tqdm
 
 from springblock.accuracy import solutions
@@ -55,19 +53,10 @@ CREEP_SPEED = 1e-2  #: beyond, v/|v| is not stiff
 STOP_SPEED = 1e-8  #: well above the accuracy, or a step may pass a stop unseen
 #: The period of the fastest lattice mode is 2 pi / sqrt(7) = 2.4.
 TOLERANCES = {"rtol": 1e-10, "atol": 1e-11, "max_step": 1.0}
-SAMPLES = 8  #: points per step at which events are looked for
+SAMPLES = 8  #: points per step at which events are looked for; shorter ones are not seen
 RESTART_STEP = 1e-6  #: the error control multiplies it by up to 10 a step
 TIE = 1e-11  #: events this close (in the unit of the event function) count as simultaneous
 SLACK = 1e-9  #: share of F_n by which F_mot must fall below mu_d F_n for a start to be called off
-
-
-class Reference(NamedTuple):
-    """Result of a run, in SI units. Arrays over blocks are indexed [y, x]."""
-
-    time: Array  #: (n,) s, multiples of the sample interval
-    force: Array  #: (n,) N, |sum of F_s| at these times
-    t_det: Array  #: (N_y, N_x) s, first detachment; NaN where never or not in contact
-    displacement: Array  #: (2, N_y, N_x) m, components x and y, at the end
 
 
 class System:
@@ -165,8 +154,7 @@ class System:
         state = self.state[:, None]
         left_creeping = np.maximum(fast, np.minimum(stayed, falling))
         left_sliding = np.maximum(1.0 - speed / STOP_SPEED, entered)
-        states = [state == STUCK, state == CREEPING, state == SLIDING]
-        return np.select(states, [released, left_creeping, left_sliding], -1.0)
+        return np.choose(state, [-1.0, released, left_creeping, left_sliding])
 
     def _creep_limits(self, motive: Array, u: Array, v: Array) -> tuple[Array, Array]:
         """Event functions (n, k) for the end of creeping and, stricter, for its return."""
@@ -214,13 +202,14 @@ class System:
             if solver.status == "failed":
                 raise RuntimeError(f"at scaled time {self.offset + solver.t}: {message}")
             dense = solver.dense_output()
-            bracket = self._bracket(dense, np.linspace(solver.t_old, solver.t, SAMPLES + 1))
-            if bracket is None:
+            times = np.linspace(solver.t_old, solver.t, SAMPLES + 1)
+            reached = np.flatnonzero((self.alarm(dense, times) >= 0.0).any(axis=0))
+            if not reached.size:
                 self._sample(dense, solver.t)
                 continue
-            time, after = bracket
-            if time < after:
-                ends = {"a": time, "b": after, "xtol": 1e-300, "rtol": 1e-15}
+            time = times[reached[0]]
+            if reached[0]:
+                ends = {"a": times[reached[0] - 1], "b": time, "xtol": 1e-300, "rtol": 1e-15}
                 time = brentq(lambda t, to=dense: self.alarm(to, np.array([t])).max(), **ends)
             self._sample(dense, time)
             alarm = self.alarm(dense, np.array([time]))[:, 0]
@@ -238,30 +227,6 @@ class System:
             u, _ = self.split(dense(t))
             self.force.extend(np.hypot(*self.slider_force(t, u).sum(axis=1)))
 
-    def _bracket(self, dense: DenseOutput, t: Array) -> tuple[float, float] | None:
-        """Two times with no block due at the first and one at the second; equal if due at once."""
-        alarm = self.alarm(dense, t)
-        reached = np.flatnonzero((alarm >= 0.0).any(axis=0))
-        last = reached[0] if reached.size else len(t) - 1
-        if reached.size and last == 0:
-            return t[0], t[0]
-        # F_mot of a stuck block may pass its threshold and fall back between two samples. It cannot
-        # exceed them by more than an eighth of their second difference; eight times that is safe.
-        excess = np.abs(np.diff(alarm, 2, axis=1)).max(axis=1)
-        grazing = (self.state == STUCK) & (alarm[:, : last + 1].max(axis=1) + excess > 0.0)
-        found = [(t[last - 1], t[last])] if reached.size else []
-        for block in np.flatnonzero(grazing):
-            peak = int(alarm[block, : last + 1].argmax())
-            low, high = t[max(peak - 1, 0)], t[min(peak + 1, last)]
-            best = minimize_scalar(
-                lambda time, block=block: -self.alarm(dense, np.array([time]))[block, 0],
-                bounds=(low, high),
-                options={"xatol": 1e-9 * (high - low)},
-            )
-            if best.fun <= 0.0 and best.x > low:
-                found.append((low, float(best.x)))
-        return min(found, key=lambda pair: pair[1], default=None)
-
 
 def unit(vectors: Array) -> Array:
     """Unit vectors along the first axis; zero where the vector is zero."""
@@ -271,6 +236,15 @@ def unit(vectors: Array) -> Array:
 def positive(lengths: Array) -> Array:
     """The same with ones in place of zeros, to divide by."""
     return np.where(lengths > 0.0, lengths, 1.0)
+
+
+class Reference(NamedTuple):
+    """Result of a run, in SI units. Arrays over blocks are indexed [y, x]."""
+
+    time: Array  #: (n,) s, multiples of the sample interval
+    force: Array  #: (n,) N, |sum of F_s| at these times
+    t_det: Array  #: (N_y, N_x) s, first detachment; NaN where never or not in contact
+    displacement: Array  #: (2, N_y, N_x) m, components x and y, at the end
 
 
 def solve(
