@@ -72,8 +72,8 @@ def make_rows(contact: NDArray[np.bool_], periodic: bool) -> Rows:
     awake[n] = periodic
     sliding[0] = sliding[n + 1] = False
     return Rows(
-        in_contact=contact.any(axis=1),
-        all_in_contact=contact.all(axis=1),
+        in_contact=np.asarray(contact.any(axis=1)),
+        all_in_contact=np.asarray(contact.all(axis=1)),
         held=np.zeros(n, np.bool_),
         awake=awake,
         due=np.zeros(n, np.int64),
