@@ -39,8 +39,6 @@ rule all:
     input:
         rules.simulate.input,
         rules.fields.input,
-        rules.aggregate.output,
-        CORRELATIONS,
         rules.means.output if PLANNED.own else [],
         rules.pages.input,
         rules.figures.input,

@@ -52,45 +52,40 @@ def test_the_configuration_offers_what_the_package_has():
 OWN = {"flat": {"direction": ["x"], "seeds": 2, "snapshot_times": [1e-5]}}
 
 
-def rules(study, *options, **how):
-    """Names and descriptions of the rules that Snakemake lists."""
-    listed = study.run("--list", "--quiet", "host", *options, **how)
-    return dict(re.findall(r"^(\w+)(?: \((.+)\))?$", listed, re.MULTILINE))
+def targets(study, *options, **how):
+    """Rules that Snakemake says can be named."""
+    listed = study.run("--list-target-rules", "--quiet", "host", *options, **how)
+    return set(re.findall(r"^(\w+)$", listed, re.MULTILINE))
 
 
-@pytest.mark.parametrize("kind", ["tiny", "own"])
-def test_every_rule_can_be_planned_by_its_name(study, tmp_path, kind):
-    """Rules with wildcards, too, such as `prelude`: all files of theirs."""
+STUDIES = {
+    "tiny": {},
+    "own": {"configuration": ("own.yaml",)},
+    "paper": WHOLE,
+    "full": FULL,
+}
+
+
+@pytest.mark.parametrize("kind", STUDIES)
+def test_every_stage_can_be_planned_by_its_name(study, tmp_path, kind):
+    """Without tricks: a rule whose files are many has another beside it that asks for all."""
     study = study.copied(tmp_path / "study")
-    if kind == "own":
-        study.write("tiny.yaml", {"study": "own", "results": "own", "n_blocks": 12, "scenes": OWN})
-    listed = rules(study)
-    assert all(listed.values())
-    jobs = study.planned("--forceall", "--", *listed)
-    assert jobs.keys() >= listed.keys()
-    assert jobs["prelude"] == {"tiny": 5, "own": 1}[kind]
-    assert jobs["compare_scene"] == 6
-    assert study.planned("--forceall", "--", "prelude").keys() == {"compile", "prelude"}
-
-
-def test_every_step_of_the_full_study_can_be_planned(study):
-    """With config/full.yaml all that the package can do; surfaces are a user's own.
-
-    docs/workflow.md lists the steps that are neither figures nor films.
-    """
+    study.write("own.yaml", {"study": "own", "n_blocks": 12, "scenes": OWN})
+    how = {"configuration": ("tiny.yaml",), **STUDIES[kind]}
     elsewhere = ("--config", "results=elsewhere")
-    steps = rules(study, *elsewhere, **FULL).keys()
-    full = study.planned(*elsewhere, "--", *steps, **FULL).keys()
-    further = {"mechanism", "production_table", "sweep_pressure", "sweep_scatter"}
-    assert {*steps, *further, *figures.FIGURES} - {"surfaces"} <= full
-    named = set(re.findall(r"`(\w+)`", (ROOT / "docs/workflow.md").read_text()))
-    drawn = ("figure_", "supplement", "sweep_", "film_")
-    assert {step for step in steps if not step.startswith(drawn)} <= named
+    named = targets(study, *elsewhere, **how)
+    beside = {"prelude": "preludes", "simulate_batch": "simulate", "part": "parts", "film": "films"}
+    beside |= {"fields_of_scene": "fields", "compile": "compiled", "mask": "masks"}
+    assert {*beside.values()} <= named
+    jobs = study.planned("--forceall", *elsewhere, "--", *named, **how)
+    assert jobs.keys() >= named
+    text = (ROOT / "docs/workflow.md").read_text()
+    drawn = ("figure_", "supplement", "sweep_", "surfaces")
+    assert {name for name in named if not name.startswith(drawn)} <= {*re.findall(r"`(\w+)`", text)}
 
 
-def test_a_figure_of_surfaces_that_are_missing_stops_itself_alone(study):
+def test_lengths_of_a_figure_that_no_scene_has_are_refused(study):
     options = ("--config", "results=elsewhere", "figures={figure_5: {n_p: 7}}", "--")
-    study.run("--dry-run", *options, "figure_6", **WHOLE)
     refused = study.run("--dry-run", *options, "figure_5", refused=True, **WHOLE)
     assert "figures.figure_5: no scene of pillars has n_p = 7." in refused
 
@@ -107,14 +102,16 @@ def test_a_finished_study_has_nothing_to_do(study):
 @pytest.mark.parametrize("place", ["Snakefile", "workflow/Snakefile"])
 def test_the_study_is_planned_from_either_file(study, place):
     """The catalogue of workflows, and a module of another workflow, read that in `workflow`."""
-    usual = study.planned("--config", "results=elsewhere")
-    jobs = study.planned("-s", place, "--config", "results=elsewhere")
-    assert {name: jobs[name] for name in usual} == usual
-    assert jobs.keys() - usual.keys() <= {"study"}
+    elsewhere = ("--cores", "1", "--config", "results=elsewhere")
+    usual = study.planned(*elsewhere)
+    jobs = study.planned("-s", place, *elsewhere)
+    assert jobs.keys() ^ usual.keys() <= {"all", "study"}
+    assert all(jobs[name] == usual[name] for name in jobs.keys() & usual.keys())
     host = study.folder / f"{place.replace('/', '_')}_host"
     host.write_text(HOST.format(place=study.folder / place))
-    jobs = study.planned("-s", host.name, "--config", "results=elsewhere")
-    assert {name: jobs[f"own_{name}"] for name in usual} == usual
+    assert {name.removeprefix("own_") for name in study.planned("-s", host.name, *elsewhere)} == {
+        *jobs
+    }
 
 
 HOST = """\

@@ -4,7 +4,7 @@
 rule part:
     """Measure errors, or compare models with the simulation, on one surface."""
     input:
-        rules.compile.output,
+        rules.compiled.input,
     output:
         f"{RESULTS}/parts/{{part}}.parquet",
     log:

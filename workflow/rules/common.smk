@@ -45,8 +45,7 @@ def code(step):
     return lambda wildcards: digest(step)
 
 
-# Jobs find `springblock` beside the Python that runs Snakemake, in an activated environment or not; on
-# a cluster that is the same path on every node, on a file system that they share.
+# Jobs find `springblock` beside this Python; on a cluster, which shares it, by the same path on every node.
 os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()]))
 if workflow.is_main_process:
     os.environ[PLAN] = planned(PLANNED.digest)

@@ -1,5 +1,4 @@
 # Figures, sweeps and films of the study, and its report.
-
 for figure in [*PLANNED.figures, *PLANNED.sweeps]:
 
     rule:

@@ -1,25 +1,28 @@
 # From scenes to realisations, their table and correlations.
 
-from springblock.solver.integrators import INTEGRATORS
-
-#: Integrators that are compiled before any job needs them.
-COMPILED = INTEGRATORS if config["accuracy"] else PLANNED.integrators
-
 
 rule compile:
-    """Compile the integrators and the laws of friction."""
+    """Compile an integrator and the laws of friction before any job needs them."""
     input:
         [law for law in PLANNED.laws if law.endswith(".py")],
     output:
-        touch(f"{RESULTS}/compiled"),
+        touch(f"{RESULTS}/kernels/{{integrator}}"),
     log:
-        f"{RESULTS}/logs/compile.log",
+        f"{RESULTS}/logs/kernels/{{integrator}}.log",
     params:
         code=code("compile"),
-        integrators=" ".join(f"--integrator {name}" for name in sorted(COMPILED)),
         laws=" ".join(f"--law {quote(name)}" for name in PLANNED.laws),
+        edges="--periodic" if PLANNED.periodic else "",
     shell:
-        "springblock compile {params.integrators} {params.laws} > {log:q} 2>&1"
+        "springblock compile --integrator {wildcards.integrator} {params.laws} {params.edges} "
+        "> {log:q} 2>&1"
+
+
+rule compiled:
+    """Compile all integrators."""
+    input:
+        expand(rules.compile.output, integrator=PLANNED.integrators),
+    localrule: True
 
 
 rule mask:
@@ -48,8 +51,8 @@ rule masks:
 rule prelude:
     """Load a scene up to its first detachment."""
     input:
-        rules.compile.output,
         lambda wildcards: PLANNED.files(wildcards.scene),
+        lambda wildcards: f"{RESULTS}/kernels/{PLANNED.integrator(wildcards.scene)}",
     output:
         f"{RESULTS}/preludes/{{scene}}.npz",
     log:

@@ -222,12 +222,8 @@ def batch_table(rows: list[Row]) -> pa.Table:
 
 
 @click.command("compile")
-@click.option(
-    "--integrator",
-    "integrators",
-    type=click.Choice(list(INTEGRATORS)),
-    multiple=True,
-    help="Time integrator; leapfrog by default. Can be repeated.",
+@defaulted(
+    "--integrator", type=click.Choice(list(INTEGRATORS)), default="leapfrog", help="Integrator."
 )
 @click.option(
     "--law",
@@ -235,12 +231,14 @@ def batch_table(rows: list[Row]) -> pa.Table:
     multiple=True,
     help="Law of friction, as for `springblock simulate`; coulomb by default. Can be repeated.",
 )
-def compile_kernels(integrators: tuple[str, ...], laws: tuple[str, ...]) -> None:
+@click.option("--periodic", is_flag=True, help="Also for surfaces with periodic edges.")
+def compile_kernels(integrator: str, laws: tuple[str, ...], periodic: bool) -> None:
     """Compile the solver, once for all later runs."""
-    surface = Surface.draw(Scene(n_blocks=4).contact, seed=0)
-    for integrator, law in product(integrators or ["leapfrog"], laws or ["coulomb"]):
+    for law, edges in product(laws or ["coulomb"], {False, periodic}):
         constants: dict[str, Any] = {LAWS[law]: 1.0} if LAWS.get(law) else {}
         setup = Setup(Material(law=law, **constants), integrator)
-        begun = compute_prelude(surface.contact, setup)
-        simulate(surface, setup, prelude=begun, duration=1e-6)
-        click.echo(f"compiled: {integrator} with the friction law {law}")
+        surface = Surface.draw(Scene(n_blocks=4).contact, seed=0, periodic=edges)
+        begun = compute_prelude(surface.contact, setup, periodic=edges)
+        simulate(surface, setup, prelude=begun, duration=1e-6, snapshot_times=[4e-7])
+        kind = "periodic" if edges else "free"
+        click.echo(f"compiled: {integrator} with the friction law {law} and {kind} edges")

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from string import ascii_lowercase
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -196,7 +196,8 @@ def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame", n_p: int) -> 
             values = Interval(*part[["correlation", "ci_low", "ci_high"]].to_numpy().T)
             look = _SIDES[str(side)] | {"label": f"$c_{side}(r)$, $n_p$ = {n_p}"}
             curves.draw_band(ax, part["r"], values, **look)
-        _draw_fits(log, str(side), curve, shown.loc[str(side)])
+        fits: Any = shown.loc[str(side)]
+        _draw_fits(log, str(side), curve, fits)
     linear.axhline(0.0, **curves.ZERO)
     log.plot([], [], color=GREY, label=_EXPONENTIAL)
     log.plot([], [], color=GREY, label=_FREE, **_DASHED)

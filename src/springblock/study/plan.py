@@ -18,6 +18,7 @@ from springblock.plotting.declaration import Declaration, file_name, having
 from springblock.plotting.lines import axes
 from springblock.provenance import digest, digest_of_data
 from springblock.simulation.setup import Setup
+from springblock.solver.integrators import INTEGRATORS
 from springblock.study import configuration as read
 from springblock.study import cost
 from springblock.study.configuration import Planned
@@ -99,8 +100,18 @@ class Plan:
 
     @property
     def integrators(self) -> list[str]:
-        """Return the integrators of all scenes."""
-        return sorted({setup.integrator for setup in self.setups.values()})
+        """Return the integrators of all scenes; errors are measured with each."""
+        used = {setup.integrator for setup in self.setups.values()}
+        return sorted(INTEGRATORS if self.configuration["accuracy"] else used)
+
+    def integrator(self, name: str) -> str:
+        """Return the integrator of an ensemble."""
+        return self.setups[self.ensembles[name]].integrator
+
+    @property
+    def periodic(self) -> bool:
+        """Whether surfaces have periodic edges, as the unit cells of the continuum have."""
+        return "continuum" in self.held or any(each.scene.is_periodic for each in self.names)
 
     @property
     def how(self) -> str:
