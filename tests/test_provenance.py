@@ -10,7 +10,7 @@ import pytest
 import springblock
 from springblock import provenance
 from springblock.cli import COMMANDS
-from springblock.provenance import configuration_digest
+from springblock.provenance import digest_of_data
 
 ROOT = Path(springblock.__file__).parent
 SOURCE = '''"""A module."""
@@ -169,13 +169,14 @@ def test_the_digest_of_a_step_covers_all_that_it_imports(step):
 def jobs():
     """Each command of the rules with the steps whose digests its jobs have."""
     found = {"plot": {"plot"}, "figure": {"plot"}}  # by `params.command`
+    found |= {"simulate": {"simulate"}, "prelude": {"simulate"}}  # by the names of folders
+    found["make"] = {"accuracy", "mechanism", "continuum"}  # by `PLANNED.step`, and pages
     for file in sorted((ROOT.parents[1] / "workflow/rules").glob("*.smk")):
         for rule in file.read_text().split("\n\n\n"):
-            command = re.search(r"springblock --code {params.code} (\w+)", rule)
+            command = re.search(r'"springblock (\w+)', rule)
             if command:
                 steps = re.findall(r'code=code\("([\w.]+)"\)', rule)
                 found.setdefault(command[1], set()).update(steps)
-    found["make"] |= {"continuum", "mechanism"}  # by `use rule`
     found["aggregate"].add("accuracy")  # only to warn
     del found["compile"]  # whose file is empty
     return found
@@ -221,7 +222,18 @@ def test_the_command_line_computes_nothing():
         assert "numpy" not in used or file.stem in {"simulate", "mask"}, file
 
 
+def test_a_job_takes_its_digests_from_the_plan_and_compares_its_sources(monkeypatch):
+    """A comment changes the bytes of a source, and not the digest of its meaning."""
+    usual = provenance.made_by("simulate")
+    monkeypatch.setenv(provenance.PLAN, provenance.planned("0123"))
+    assert provenance.made_by("simulate") == usual
+    assert provenance.of_study("simulate") == usual | {"study": "0123"}
+    monkeypatch.setattr(provenance, "_sources", lambda step: "other bytes")
+    with pytest.raises(ValueError, match="the code changed while the study ran"):
+        provenance.made_by("simulate")
+
+
 def test_the_order_of_keys_does_not_change_a_configuration():
     one, other = {"step": 1e-8, "seeds": 3}, {"seeds": 3, "step": 1e-8}
-    assert configuration_digest(one) == configuration_digest(other)
-    assert configuration_digest(one) != configuration_digest({"step": 1e-8})
+    assert digest_of_data(one) == digest_of_data(other)
+    assert digest_of_data(one) != digest_of_data({"step": 1e-8})

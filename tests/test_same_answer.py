@@ -17,7 +17,7 @@ def test_batches_and_order_change_no_bit_of_a_table(springblock, tmp_path):
     tables = []
     for files in ([simulated(0, 2)], [simulated(seed, seed) for seed in (2, 1, 0)]):
         outputs = [tmp_path / name for name in ("table", "correlation", "length")]
-        springblock("aggregate", *files, "--configuration", "0", "--output", outputs[0])
+        springblock("aggregate", *files, "--output", outputs[0])
         given = ("--output-correlation", outputs[1], "--output-length", outputs[2])
         springblock("correlation", *files, *given)
         tables.append([pq.read_table(output) for output in outputs])

@@ -40,7 +40,7 @@ def called(*words, **environment):
 def test_the_traceback_of_an_error_is_shown_on_request(asked):
     said = called("info", __file__, SPRINGBLOCK_TRACEBACK=asked).stderr
     assert ("Traceback" in said) == bool(asked)
-    assert said.splitlines()[-1].startswith(f"Error: {__file__} has no checksum")
+    assert said.splitlines()[-1].startswith(f"Error: {__file__} is damaged, or not")
 
 
 def test_output_that_nobody_reads_ends_a_command_quietly(batch):

@@ -1,4 +1,4 @@
-"""Files that commands take and write, and springblock verify of two files."""
+"""Files that commands take and write, and springblock compare of two files."""
 
 import os
 from pathlib import Path
@@ -10,9 +10,6 @@ import pytest
 from springblock.io.parquet import write
 from springblock.plotting.figures import FIGURES
 
-CONFIGURATION = ("--configuration", "0123")
-
-
 TABLES = [(name, each.tables) for name, each in FIGURES.items() if each.draws == "tables"]
 CLAIMED = ("correlation", "correlation-length", "work-precision")
 
@@ -21,17 +18,13 @@ CLAIMED = ("correlation", "correlation-length", "work-precision")
     "words",
     [
         *(("figure", name, "{file}", "--output", "{here}/a.png") for name, _ in TABLES),
-        *(
-            ("claims", "{batch}", f"--{name}", "{file}", *CONFIGURATION, "--output", "{here}/a")
-            for name in CLAIMED
-        ),
+        *(("claims", "{batch}", f"--{name}", "{file}", "--output", "{here}/a") for name in CLAIMED),
         ("make", "accuracy", *["{file}"] * 4, "--output", "{here}/a.md"),
         ("make", "mechanism", *["{file}"] * 3, "--output", "{here}/a.md"),
         ("plot", "{file}", "--output", "{here}/a.png"),
         ("animate", "{file}", "--output", "{here}/a.gif"),
         ("table", "{file}"),
-        ("compare", "{batch}", "{file}"),
-        ("aggregate", "{file}", *CONFIGURATION, "--output", "{here}/a"),
+        ("aggregate", "{file}", "--output", "{here}/a"),
     ],
     ids=" ".join,
 )
@@ -50,14 +43,13 @@ def test_a_figure_takes_its_tables_alone(springblock, batch, tmp_path, name, tab
     assert said == f"Error: {len(files)} files given; give {', '.join(tables)}"
 
 
-def test_two_files_are_the_same_in_any_order_of_their_rows_or_verify_fails(
-    springblock, batch, tmp_path
-):
+def test_two_files_are_the_same_in_any_order_of_their_rows(springblock, batch, tmp_path):
     table = pq.read_table(batch(0, 2), partitioning=None)
     write(table.take([2, 1, 0]), tmp_path / "b.parquet", {})
-    assert "the same 3 rows" in springblock("verify", batch(0, 2), tmp_path / "b.parquet")
-    springblock("verify", batch(0, 2), batch(3, 3), refused=True)
-    assert "give a second file" in springblock("verify", batch(0, 2), refused=True)
+    assert "the same 3 rows" in springblock("compare", batch(0, 2), tmp_path / "b.parquet")
+    said = springblock("compare", batch(0, 2), batch(3, 3))
+    assert said.startswith("no rows in both, 3 only in the first, 1 only in the second")
+    assert "Second minus first:" in said
 
 
 def test_nothing_but_a_regular_file_is_replaced(springblock, tmp_path):
@@ -76,7 +68,7 @@ OF_OTHER_TYPES = {
     ("mask", __file__): "area.png",
     ("simulate", "--n-blocks", 4): "run.csv",
     ("prelude", "--n-blocks", 4): "run.parquet",
-    ("aggregate", __file__, *CONFIGURATION): "all.npy",
+    ("aggregate", __file__): "all.npy",
     ("make", "stability"): "page.md",
     ("make", "collect", __file__): "table.csv",
     ("make", "mechanism", *[__file__] * 3): "page.parquet",
@@ -86,7 +78,6 @@ OF_OTHER_TYPES = {
     ("show", "--n-blocks", 4): "surface",
     ("plot", __file__): "run.parquet",
     ("animate", __file__): "run.png",
-    ("archive", "."): "study.tar",
     ("table", __file__): "means.md",
 }
 

@@ -5,14 +5,13 @@ import pytest
 
 FASTER = ("--material", "slider_velocity=1e-3")
 OUTPUT = ("--output", "{here}/a.png")
-CONFIGURATION = ("--configuration", "0123")
-TABLE = (*CONFIGURATION, "--output", "{here}/a")
+TABLE = ("--output", "{here}/a")
 #: A command for each way to read files, here of two studies, 0 and 1.
 COMMANDS = {
-    "aggregate": ("aggregate", "{batch0}", "{batch1}", *CONFIGURATION, "--output", "{here}/a"),
+    "aggregate": ("aggregate", "{batch0}", "{batch1}", *TABLE),
     "collect": ("make", "collect", "{c0}", "{c1}", "--output", "{here}/a"),
     "figure_6": ("figure", "figure_6", "{batch0}", "{batch1}", *OUTPUT),
-    "figure_7": ("figure", "figure_7", "{c0}", "{l1}", *OUTPUT),
+    "figure_7": ("figure", "figure_7", "{c0}", "{l1}", "--n-p", "6", *OUTPUT),
     "claims, table": ("claims", "{batch0}", "--correlation", "{c1}", *TABLE),
     "claims, tables": (
         *("claims", "{batch0}", "--correlation", "{c0}", "--correlation-length", "{l1}"),
@@ -49,5 +48,5 @@ def test_scenes_with_constants_of_their_own_belong_together(springblock, studies
     own, table = tmp_path / "own", tmp_path / "table"
     varied = ("--vary", "slider_velocity=1e-3", "--last-seed", 2)
     springblock("simulate", *PILLARS, *varied, "--output", own)
-    springblock("aggregate", studies["batch0"], own, *CONFIGURATION, "--output", table)
+    springblock("aggregate", studies["batch0"], own, "--output", table)
     assert pq.read_table(table).num_rows == 6

@@ -17,7 +17,7 @@ ONE = ("--first-seed", 3, "--last-seed", 3)
 
 def test_an_integrator_is_compiled_with_a_law(springblock):
     said = springblock("compile", "--law", "slip_weakening")
-    assert said == "compiled: leapfrog with the friction law slip_weakening\n"
+    assert said == "compiled: leapfrog with the friction law slip_weakening and free edges\n"
 
 
 @pytest.fixture
@@ -110,4 +110,4 @@ def test_fields_are_written_beside_the_run(springblock, tmp_path):
 def test_a_run_that_fails_is_named(springblock, tmp_path):
     soft = ("--material", "youngs_modulus=1e4", "--step", 1e-6, "--sample-interval", 1e-5)
     refusal = springblock("simulate", *FLAT, *ONE, *soft, "--output", tmp_path / "a", refused=True)
-    assert "n_blocks-6/level-0/direction-x, seed 3: at t = " in refusal
+    assert "n_blocks = 6, level = 0, direction = x, seed 3: at t = " in refusal

@@ -55,7 +55,7 @@ def test_tables_filtered_with_pandas_are_read_and_contradicting_runs_refused(
     assert "seed 0, differ: t_max is " in said
     content = filtered.read_bytes()
     filtered.write_bytes(content[: len(content) // 2])
-    assert "has no checksum; it is truncated" in springblock("table", filtered, refused=True)
+    assert "is damaged, or not a table" in springblock("table", filtered, refused=True)
 
 
 def test_realisations_are_gathered_by_any_name_and_count_once(springblock, batch, tmp_path):

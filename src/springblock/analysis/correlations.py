@@ -24,11 +24,11 @@ def correlations(records: Sequence[Record]) -> tuple[list[Row], list[Row]]:
 def _sides(records: Sequence[Record]) -> Iterator[tuple[Row, Array]]:
     """Yield the columns that name each kind of side, and its detachment times."""
     scene = records[0].scene
-    others = {record.scene.folder for record in records} - {scene.folder}
+    others = {str(record.scene) for record in records} - {str(scene)}
     if others:
-        raise ValueError(f"several scenes: {scene.folder}, {others.pop()}; give batches of one")
+        raise ValueError(f"several scenes: {scene}; {others.pop()}; give batches of one")
     if not scene.sides:
-        raise ValueError(f"{scene.folder} has no whole sides of 6 blocks or more")
+        raise ValueError(f"{scene}: no whole sides of 6 blocks or more")
     columns = {**scene.row, **records[0].constants, "realisations": len(records)}
     for side in scene.sides:
         yield columns | {"side": side}, side_times(records, scene.pattern, side)

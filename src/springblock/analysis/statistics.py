@@ -134,9 +134,11 @@ def _bca(
 
 def proportion_interval(hits: int, k: int, level: float = _LEVEL) -> Interval:
     """Proportion of k realisations, with the exact interval of Clopper and Pearson 1934."""
-    from scipy.stats import binomtest  # slow to import, and most jobs do not need it
+    from scipy.special import betaincinv  # slow to import, and most jobs do not need it
 
-    low, high = binomtest(hits, k).proportion_ci(level)
+    tail = 0.5 * (1.0 - level)
+    low = betaincinv(hits, k - hits + 1, tail) if hits else 0.0
+    high = betaincinv(hits + 1, k - hits, 1.0 - tail) if hits < k else 1.0
     return Interval(np.array(hits / k), np.array(low), np.array(high))
 
 

@@ -8,7 +8,7 @@ import click
 from springblock.claims import STATEMENTS
 from springblock.claims.table import SCHEMA, gathered, rows
 from springblock.cli.options import INPUT, Output, load_as
-from springblock.io.parquet import rows_to_table, write
+from springblock.io.parquet import load, refuse_mixture, rows_to_table, write
 from springblock.io.records import read_records
 from springblock.io.rows import Row
 from springblock.provenance import of_study
@@ -41,6 +41,8 @@ def claims(
     The tests use BATCHES of realisations and tables. Statements whose data are missing are not
     tested.
     """
+    tables = [table for table in (correlation, correlation_length) if table]
+    refuse_mixture((file, load(file)) for file in (batches[0], *tables))
     evidence = gathered(
         read_records(batches, snapshots=True),
         correlation=_rows("correlation", correlation),

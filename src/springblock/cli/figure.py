@@ -9,6 +9,7 @@ from typing import Any
 import click
 
 from springblock.cli.options import INPUT, PICTURE, load_as, scene_options, with_options
+from springblock.io.parquet import load, refuse_mixture
 from springblock.io.records import Record, read_records
 from springblock.plotting import drawing
 from springblock.plotting.declaration import Declaration, span
@@ -48,6 +49,7 @@ def _tables(declared: Declaration, tables: Paths) -> list[Any]:
 
 
 def _correlations(declared: Declaration, tables: Paths, n_p: int) -> list[Any]:
+    refuse_mixture((file, load(file)) for file in tables)
     return [*_tables(declared, tables), n_p]
 
 

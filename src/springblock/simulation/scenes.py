@@ -39,7 +39,7 @@ def realise(scene: Scene, setup: Setup, seed: int, **options: Any) -> Realisatio
         surface = surface_of(scene, seed, setup.material)
         return simulate(surface, setup, scene.direction, **options)
     except SimulationError as error:
-        raise SimulationError(f"{scene.folder}, seed {seed}: {error}") from error
+        raise SimulationError(f"{scene}, seed {seed}: {error}") from error
 
 
 def columns_of(run: Realisation, scene: Scene, seed: int) -> dict[str, Any]:
