@@ -38,7 +38,6 @@ for command in (
     "plot {folder}/run.parquet --output {folder}/a.pdf",
     "show --n-blocks 6 --n-p 2 --n-s 1 --output {folder}/b.pdf",
     "animate {folder}/run.parquet --output {folder}/c.gif",
-    "verify {folder}/run.parquet {folder}/run.parquet",
     "table {folder}/run.parquet --output {folder}/table.csv",
     "compare {folder}/run.parquet {folder}/run.parquet",
 ):

@@ -4,9 +4,9 @@ import contextlib
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 from uuid import uuid4
-from zipfile import BadZipFile, ZipFile
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,30 +49,17 @@ def write_text(path: Path, text: str) -> None:
         partial.write_text(text, encoding="utf-8")
 
 
-#: Largest size of an unpacked file, bytes: a prelude has up to six states of 4096 x 4096 blocks.
-_MOST = 2**32
 #: Errors, besides ValueError, of reading a file that is damaged or of another type.
-_TORN = BadZipFile, EOFError, MemoryError, OSError, RuntimeError, TypeError, zlib.error
+_TORN = BadZipFile, EOFError, OSError, TypeError, zlib.error
 
 
-def read_arrays(source: Path | BinaryIO) -> dict[str, NDArray[Any]]:
+def read_arrays(path: Path) -> dict[str, NDArray[Any]]:
     """Read the arrays of an .npz file by name; pickled objects are never loaded.
 
-    A file that is damaged, of another type, or too large in memory is a ValueError.
+    A file that is damaged or of another type is a ValueError.
     """
     try:
-        with ZipFile(source) as packed:
-            parts = packed.infolist()
-        size, stored = (sum(p.file_size for p in parts), sum(p.compress_size for p in parts))
-        if size > max(_MOST, stored):
-            raise ValueError(f"it has {size} bytes unpacked; the limit is {_MOST}")
-        if not isinstance(source, Path):
-            source.seek(0)
-        with np.load(source, allow_pickle=False) as arrays:
-            found = dict(arrays)
+        with np.load(path, allow_pickle=False) as arrays:
+            return dict(arrays)
     except _TORN as error:
         raise ValueError(str(error)) from error
-    others = [name for name, part in found.items() if not isinstance(part, np.ndarray)]
-    if others:
-        raise ValueError(f"its part {others[0]} is not an array")
-    return found
