@@ -14,7 +14,7 @@ def judged(table):
 
 @pytest.fixture
 def outputs(tmp_path):
-    return ("--configuration", "0123", "--output", tmp_path / "a")
+    return ("--output", tmp_path / "a")
 
 
 def test_statements_are_tested_on_what_was_simulated(springblock, batch, outputs, tmp_path):

@@ -17,7 +17,7 @@ def test_sides_along_both_axes_are_correlated_and_collected(
     springblock("correlation", *pillars, *outputs)
     for name, schema in (("c", CORRELATION), ("l", CORRELATION_LENGTH)):
         part, whole = tmp_path / name, tmp_path / f"{name}2"
-        springblock("make", "collect", part, part, "--configuration", "0123", "--output", whole)
+        springblock("make", "collect", part, part, "--output", whole)
         table = pq.read_table(whole)
         assert table.schema.names == schema.names
         assert table.num_rows == 2 * pq.read_metadata(part).num_rows
@@ -44,7 +44,7 @@ def test_surfaces_without_sides_and_two_scenes_are_refused(
 ):
     flat = batch(0, 0)
     refusal = springblock("correlation", flat, *outputs, refused=True)
-    assert "n_blocks-12/level-0/direction-x has no whole sides of 6 blocks or more" in refusal
+    assert "flat-x has no whole sides of 6 blocks or more" in refusal
     refusal = springblock("correlation", *pillars, flat, *outputs, refused=True)
     assert "several scenes: " in refusal
     assert list(tmp_path.iterdir()) == []

@@ -15,9 +15,8 @@ from springblock.provenance import of_study
 
 
 def _rows(name: str, table: Path | None) -> list[Row]:
-    """Return the rows of a table, if any, without those of scenes with varied constants."""
-    rows = load_as(name, table).to_pylist() if table else []
-    return [row for row in rows if not row.get("varied")]
+    """Return the rows of a table, if any."""
+    return load_as(name, table).to_pylist() if table else []
 
 
 _table = partial(click.option, type=INPUT)
