@@ -11,7 +11,7 @@ import pytest
 from springblock import Material, Realisation
 from springblock.claims import STATEMENTS
 from springblock.cli import main
-from springblock.io.schemas import SETUP
+from springblock.model.scene import FIELDS
 from springblock.report.findings import FILE
 
 ROOT = Path(__file__).parents[1]
@@ -33,7 +33,7 @@ def symbols(heading):
 def test_the_symbols_of_the_model_are_those_of_the_code():
     """Every constant with its unit and the paper's value, and all that follows from them."""
     constants, paper = dict(Material().items()), Material()
-    units = {column.name: column.metadata[b"unit"].decode() for column in SETUP}
+    units = {name: each.metadata["unit"] for name, each in FIELDS.items()}
     given, derived = symbols("Symbols")[: len(constants)], symbols("Symbols")[len(constants) :]
     assert [name for name, _, _ in given] == list(constants)
     for name, unit, value in given:

@@ -142,7 +142,7 @@ def flipped(content):
 def test_a_damaged_file_is_refused_by_name(study, springblock, tmp_path, pattern, damage):
     (file,) = study.results.glob(pattern)
     file.write_bytes(damage(file.read_bytes()))
-    simulate = ("simulate", "--n-blocks", 12, "--material", "slider_velocity=5e-3", "--prelude")
+    simulate = ("simulate", "--n-blocks", 12, "--slider-velocity", "5e-3", "--prelude")
     output = ("--output", tmp_path / "a.parquet")
     words = (*simulate, file, *output) if file.suffix == ".npz" else ("info", file)
     said = springblock(*words, refused=True)

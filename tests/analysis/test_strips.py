@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from springblock.analysis.strips import values
+from springblock.io.identity import identity
 from springblock.model.scene import Scene
 from springblock.pages import rendered
 
@@ -21,7 +22,7 @@ def rows(friction=FRICTION):
         scenes[Scene(120, n_p2=width, n_s2=width, direction="y")] = across
         scenes[Scene(120, n_p2=width, n_s2=width)] = along
     return [
-        scene.row | {"seed": seed, "static_friction": mean + noise}
+        identity(scene) | {"seed": seed, "static_friction": mean + noise}
         for scene, mean in scenes.items()
         for seed, noise in enumerate(NOISE)
     ]

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -10,32 +11,34 @@ from springblock import draw_friction
 from springblock.analysis.statistics import pillar_ring
 from springblock.claims.rule import Evidence
 from springblock.claims.surfaces import edge, grooved_parts, pillars_of
+from springblock.io.identity import identity
 from springblock.io.records import Record
 from springblock.io.rows import Row
-from springblock.model.material import Material
 from springblock.model.scene import Scene
 
 N, SEEDS = 48, range(40)
+#: Scenes with the study's material: damped, so that motion has ended far below the load peaks.
+surface = partial(Scene, gamma=1e5, mu_dynamic=0.05)
 NAMES = ("slider_velocity", "pressure", "mu_static_std")
-FLAT = Scene(N)
+FLAT = surface(N)
 ALONG, ACROSS, ANGLED = (
-    Scene(N, 23, 25, 5, 1, direction=direction) for direction in ("x", "y", "45")
+    surface(N, 23, 25, 5, 1, direction=direction) for direction in ("x", "y", "45")
 )
-BARE_ALONG, BARE_ACROSS = (Scene(N, n_p2=5, n_s2=1, direction=direction) for direction in "xy")
-DEEP_ALONG, DEEP_ACROSS = (Scene(N, 23, 25, 5, 1, 11, 1, direction) for direction in "xy")
-SQUARE, PLAIN = Scene(N, 23, 25, 5, 1, 5, 1), Scene(N, 23, 25)
-STIFF = Scene(N, varied={"youngs_modulus": 4e7, "pressure": 2e5, "step": 1e-8})
+BARE_ALONG, BARE_ACROSS = (surface(N, n_p2=5, n_s2=1, direction=direction) for direction in "xy")
+DEEP_ALONG, DEEP_ACROSS = (surface(N, 23, 25, 5, 1, 11, 1, direction) for direction in "xy")
+SQUARE, PLAIN = surface(N, 23, 25, 5, 1, 5, 1), surface(N, 23, 25)
+STIFF = surface(N, youngs_modulus=4e7, pressure=2e5, step=1e-8)
 #: The same motion as with a modulus and a pressure 1e4 times larger.
-STIFFER = Scene(N, varied={"slider_velocity": 5e-6, "gamma": 1e3})
+STIFFER = surface(N, slider_velocity=5e-6, gamma=1e3)
 #: The lowest and the highest value of each constant that decides how many fronts there are.
 FEW, MANY = (
-    [Scene(N, varied={name: value}) for name, value in zip(NAMES, values, strict=True)]
+    [surface(N, **{name: value}) for name, value in zip(NAMES, values, strict=True)]
     for values in ((5e-5, 1e4, 0.02), (5e-3, 2e5, 0.3))
 )
 #: Shorter pillars than those of `ALONG`, and some with wider pawls.
-SHORTER = [Scene(N, 17, 7, 5, 1), Scene(N, 11, 13, 5, 1)]
-WIDER = [Scene(N, 23, 25, 11, 1), Scene(N, 17, 7, 8, 1), Scene(N, 23, 25, 7, 1)]
-PILLARS = [Scene(N, n_p, n_p) for n_p in (2, 6, 24)]
+SHORTER = [surface(N, 17, 7, 5, 1), surface(N, 11, 13, 5, 1)]
+WIDER = [surface(N, 23, 25, 11, 1), surface(N, 17, 7, 8, 1), surface(N, 23, 25, 7, 1)]
+PILLARS = [surface(N, n_p, n_p) for n_p in (2, 6, 24)]
 
 DECAY = np.exp(-1.0 / 4.0)  #: of the correlation along long sides, from block to block
 #: t_max in µs, static friction, width of the force peak in µs; other load peaks as (µs, height).
@@ -163,7 +166,6 @@ def record(scene: Scene, seed: int) -> Record:
     return Record(
         scene=scene,
         seed=seed,
-        constants=dict(Material(gamma=1e5, mu_dynamic=0.05).items()),  # far below the load peaks
         time=time,
         force=force,
         normal_force=1.0,
@@ -227,10 +229,10 @@ def stress() -> dict[Scene, np.ndarray]:
 
 #: Scenes of the tables of correlations, and l_c of their sides.
 LENGTHS = {
-    Scene(120, 20, 20): {"x": 3.4, "y": 0.5},
-    Scene(120, 60, 60): {"x": 4.4, "y": 0.5},
-    Scene(120, 58, 62, 8, 2): {"x": 4.3, "grooves": 4.3},
-    Scene(120, 58, 62, 8, 2, direction="y"): {"x": 0.3, "grooves": 0.3},
+    surface(120, 20, 20): {"x": 3.4, "y": 0.5},
+    surface(120, 60, 60): {"x": 4.4, "y": 0.5},
+    surface(120, 58, 62, 8, 2): {"x": 4.3, "grooves": 4.3},
+    surface(120, 58, 62, 8, 2, direction="y"): {"x": 0.3, "grooves": 0.3},
 }
 
 
@@ -242,7 +244,7 @@ def around(name: str, value: float, half: float, prefix: str = "ci") -> Row:
 def correlation() -> dict[Scene, list[Row]]:
     return {
         scene: [
-            {**scene.row, "side": side, "r": r, "realisations": 240}
+            {**identity(scene), "side": side, "r": r, "realisations": 240}
             | around("correlation", np.exp(-r / decay), 0.005)
             for side, decay in sides.items()
             for r in range(9)
@@ -254,7 +256,7 @@ def correlation() -> dict[Scene, list[Row]]:
 def lengths() -> dict[Scene, list[Row]]:
     return {
         scene: [
-            {**scene.row, "side": side, "realisations": 240}
+            {**identity(scene), "side": side, "realisations": 240}
             | around("l_c", value, 0.2)
             | around("tail", value, 0.3, prefix="tail")
             for side, value in sides.items()

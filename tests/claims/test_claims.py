@@ -65,7 +65,7 @@ def sticking(friction: float) -> Change:
 
 def constant(name: str, value: float) -> Change:
     """Another constant of the material."""
-    return lambda run: {"constants": {**run.constants, name: value}}
+    return lambda run: {"scene": replace(run.scene, **{name: value})}
 
 
 def late_avalanche(run: Record) -> dict[str, Any]:
@@ -171,7 +171,7 @@ CHANGES = [
     ("slips_again", [ALONG], calm, REFUTED),
     ("second_peak_decides", [ALONG], peaks((220.0, 0.65), (300.0, 0.60)), REFUTED),
     ("rest_between_peaks", [ALONG], mirrored, REFUTED),
-    ("stressed_between_peaks", [ALONG], constant("mu_dynamic", 0.66), REFUTED),
+    ("stressed_between_peaks", [ALONG, ACROSS], constant("mu_dynamic", 0.66), REFUTED),
     ("small_force_suffices", [ALONG], two_peaks, REFUTED),
     ("rapid_but_smooth", [ALONG], peaks((300.0, 0.60), width=1.0), REFUTED),
     ("edges_before_core", [ALONG, ACROSS], mirrored, REFUTED),
@@ -364,7 +364,7 @@ def test_where_friction_is_lowest_is_compared_with_l_c_for_every_scatter(
     lowest, expected, monkeypatch
 ):
     monkeypatch.setattr("springblock.claims.pillars._COMPARED", (2, 6, 24))
-    scattered = [replace(scene, varied={"mu_static_std": 0.2}) for scene in PILLARS]
+    scattered = [replace(scene, **{"mu_static_std": 0.2}) for scene in PILLARS]
     runs = {scene: [paper.record(scene, seed) for seed in range(60)] for scene in PILLARS}
     others = {new: runs[old] for new, old in zip(scattered, PILLARS, strict=True)}
     others[scattered[lowest]] = [

@@ -12,4 +12,4 @@ def test_a_large_energy_residual_is_reported(springblock, batch, tmp_path):
     write(table.set_column(where, "energy_error", pa.array([0.25])), tmp_path / "bad", {})
     words = (tmp_path / "bad", "--output", tmp_path / "a")
     said = springblock("aggregate", *words)
-    assert said.startswith("warning: energy residual 2.5e-01 at n_blocks = 12, level = 0")
+    assert said.startswith("warning: energy residual 2.5e-01 at n_blocks = 12, seed = 0")

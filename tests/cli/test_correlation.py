@@ -47,7 +47,7 @@ def test_surfaces_without_sides_and_two_scenes_are_refused(
 ):
     flat = batch(0, 0)
     refusal = springblock("correlation", flat, *outputs, refused=True)
-    assert "n_blocks = 12, level = 0, direction = x: no whole sides of 6 blocks or more" in refusal
+    assert ": no whole sides of 6 blocks or more" in refusal
     two = [shutil.copy(file, tmp_path / f"{i}.parquet") for i, file in enumerate((*pillars, flat))]
     refusal = springblock("correlation", *two, *outputs, refused=True)
     assert "several scenes: " in refusal

@@ -29,7 +29,7 @@ def test_the_seed_chooses_the_run(springblock, batch, tmp_path):
 
 def test_fields_are_mapped_alone(springblock, tmp_path):
     fields, picture = tmp_path / "run.nc", tmp_path / "run.svg"
-    short = ("--n-blocks", 6, "--duration", 4e-6, "--snapshot", 2e-6, "--fields", fields)
+    short = ("--n-blocks", 6, "--duration", 4e-6, "--snapshot-times", 2e-6, "--fields", fields)
     springblock("simulate", *short, "--output", tmp_path / "run")
     springblock("plot", fields, "--output", picture)
     assert "magnitude of the shear stress" in picture.read_text(encoding="utf-8")

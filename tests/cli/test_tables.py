@@ -17,7 +17,7 @@ def written(file):
 
 
 def test_a_row_holds_the_mean_of_an_ensemble_with_its_interval(springblock, batch, tmp_path):
-    faster = batch(0, 2, "--vary", "slider_velocity=1e-3")
+    faster = batch(0, 2, "--slider-velocity", "1e-3")
     output = tmp_path / "table.csv"
     said = springblock("table", batch(0, 2), faster, "--output", output)
     rows = written(output)
@@ -47,7 +47,7 @@ def test_tables_filtered_with_pandas_are_read_and_contradicting_runs_refused(
     whole = springblock("table", batch(0, 2))
     assert springblock("table", batch(0, 2), filtered) == whole
     assert "pandas" not in springblock("info", filtered)
-    faster = batch(0, 2, "--vary", "slider_velocity=1e-3")
+    faster = batch(0, 2, "--slider-velocity", "1e-3")
     picture = tmp_path / "a.png"
     springblock("plot", filtered, faster, "--over", "slider_velocity", "--output", picture)
     runs.assign(t_max=2.0 * runs.t_max).to_parquet(other)
@@ -68,7 +68,7 @@ def test_realisations_are_gathered_by_any_name_and_count_once(springblock, batch
     (folder / "empty.parquet").touch()
     assert "empty.parquet is empty or not a table" in springblock("table", folder, refused=True)
     (folder / "empty.parquet").unlink()
-    for i, file in enumerate((batch(0, 2), batch(0, 2), batch(0, 2, "--vary", "gamma=0"))):
+    for i, file in enumerate((batch(0, 2), batch(0, 2), batch(0, 2, "--gamma", "0"))):
         (folder / f"{i}.parquet").write_bytes(file.read_bytes())
     springblock("table", folder, "--by", "direction", "--of", "t_avg", "--output", output)
     (row,) = pq.read_table(output).to_pylist()
@@ -86,7 +86,7 @@ def test_a_difference_is_paired_where_seeds_are_the_same(
     springblock, batch, tmp_path, seeds, paired
 ):
     """And has the interval of the t test for it."""
-    slow, fast = batch(0, 2), batch(*seeds, "--vary", "slider_velocity=1e-3")
+    slow, fast = batch(0, 2), batch(*seeds, "--slider-velocity", "1e-3")
     output = tmp_path / "changes.csv"
     said = springblock("compare", slow, fast, "--of", "static_friction", "--output", output)
     assert f"slider_velocity: 0.0005 in {slow}, 0.001 in {fast}" in said
@@ -107,7 +107,7 @@ def test_a_difference_is_paired_where_seeds_are_the_same(
 def test_changes_of_the_same_seeds_at_two_dampings_count_once(springblock, batch, tmp_path):
     """By velocity alone: from the lowest to each other one, the mean over both dampings."""
     files = [
-        batch(0, 2, "--vary", f"slider_velocity={speed}", "--vary", f"gamma={gamma}")
+        batch(0, 2, "--slider-velocity", speed, "--gamma", gamma)
         for speed in ("7e-4", "1e-3", "5e-4")
         for gamma in ("0", "5e3")
     ]
@@ -151,8 +151,8 @@ def friction(mu_dynamic, speed, floor, v_0):
 def test_an_own_law_is_compared_with_coulombs(springblock, batch, tmp_path):
     """Each variant of its constants by itself; a unit with a space is a unit."""
     (tmp_path / "ageing.py").write_text(LAW)
-    own = ("--vary", f"law={tmp_path / 'ageing.py'}")
-    runs = batch(0, 1), *(batch(0, 1, *own, "--vary", f"v_0={v}") for v in ("1e-4", "1e-3"))
+    own = ("--law", tmp_path / "ageing.py")
+    runs = batch(0, 1), *(batch(0, 1, *own, "--constant", f"v_0={v}") for v in ("1e-4", "1e-3"))
     assert len(springblock("table", *runs, "--of", "static_friction").splitlines()) == 4
     output = tmp_path / "a.csv"
     springblock("table", *runs, "--changes", "--of", "static_friction", "--output", output)
@@ -171,17 +171,18 @@ def test_other_thresholds_are_not_paired_and_ensembles_of_one_side_are_named(
 ):
     """Nor are those drawn with another correlation, though mean and scatter are the same."""
     for other, named in (
-        ("mu_static=0.9", "mu_static: 1.0 in"),
-        ("correlation_length=2e-5", "correlation_length: 0.0 in"),
+        (("--mu-static", 0.9), "mu_static: 1.0 in"),
+        (("--correlation-length", 2e-5), "correlation_length: 0.0 in"),
     ):
-        said = springblock("compare", batch(0, 2), batch(0, 2, "--vary", other))
+        said = springblock("compare", batch(0, 2), batch(0, 2, *other))
         assert named in said
         assert "of means" in said
-    spaced, length = "spacing=2e-5", ("--vary", "correlation_length=2e-5")  # is 2 blocks, then 1
-    assert "by seed" in springblock("compare", batch(0, 2), batch(0, 2, "--vary", spaced))
-    two = batch(0, 2, *length), batch(0, 2, *length, "--vary", spaced)
+    spaced = ("--spacing", 2e-5)
+    length = ("--correlation-length", 2e-5)  # is 2 blocks, then 1
+    assert "by seed" in springblock("compare", batch(0, 2), batch(0, 2, *spaced))
+    two = batch(0, 2, *length), batch(0, 2, *length, *spaced)
     assert "of means" in springblock("compare", *two)
-    for i, file in enumerate((batch(0, 2), batch(0, 2, "--vary", "slider_velocity=1e-3"))):
+    for i, file in enumerate((batch(0, 2), batch(0, 2, "--slider-velocity", "1e-3"))):
         (tmp_path / f"{i}.parquet").write_bytes(file.read_bytes())
     said = springblock("compare", tmp_path, batch(0, 2))
     assert f"only in {tmp_path}: " in said

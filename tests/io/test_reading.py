@@ -10,7 +10,7 @@ import pytest
 
 from springblock import Surface, read, simulate
 from springblock.io.records import by_scene, read_records
-from springblock.model.scene import Scene
+from springblock.model.scene import Scene, differing
 
 BATCH = ("simulate", "--n-blocks", 6, "--n-p", 2, "--n-s", 1, "--first-seed", 9, "--last-seed", 10)
 TIMES = (1e-6, 1.5e-4)  #: s; before all detachments and amid them
@@ -19,8 +19,8 @@ TIMES = (1e-6, 1.5e-4)  #: s; before all detachments and amid them
 @pytest.mark.parametrize("rows", [6, 9])
 def test_runs_and_their_snapshots_are_read_back_as_they_were(springblock, tmp_path, rows):
     path, duration = tmp_path / "a.parquet", 1.6e-4
-    scene = Scene(n_blocks=6, n_p=2, n_s=1, n_rows=rows)
-    asked = ("--duration", duration, "--snapshot", TIMES[0], "--snapshot", TIMES[1])
+    scene = Scene(6, 2, 1, n_rows=rows, duration=duration, snapshot_times=TIMES)
+    asked = ("--duration", duration, "--snapshot-times", f"{TIMES[0]},{TIMES[1]}")
     springblock(*BATCH, "--n-rows", rows, *asked, "--output", path)
     read_back = read(str(path))
     assert [run.seed for run in read_back] == [9, 10]
@@ -40,7 +40,7 @@ def test_runs_and_their_snapshots_are_read_back_as_they_were(springblock, tmp_pa
 
 def test_runs_of_several_files_are_in_the_order_of_their_seeds(springblock, tmp_path):
     late, early = tmp_path / "batch-10.parquet", tmp_path / "batch-2.parquet"
-    kept = ("--snapshot", TIMES[0])
+    kept = ("--snapshot-times", TIMES[0])
     springblock(*BATCH, *kept, "--output", late)
     springblock(*BATCH[:-4], "--first-seed", 2, *kept, "--output", early)
     found = [(run.seed, len(run.snapshots)) for run in read_records([late, early], snapshots=True)]
@@ -50,19 +50,12 @@ def test_runs_of_several_files_are_in_the_order_of_their_seeds(springblock, tmp_
         read_records([late, early, Path(str(late))])
 
 
-@pytest.mark.parametrize(
-    ("name", "asked"),
-    [("duration", ("--duration", 2e-6)), ("last_snapshot", ("--snapshot", TIMES[0]))],
-)
-def test_runs_of_one_scene_that_end_at_other_times_are_not_read_together(
-    springblock, tmp_path, name, asked
-):
-    """Nor does one of them count for the other where all realisations of a table are asked for."""
+def test_runs_that_end_at_other_times_are_of_another_scene(springblock, tmp_path):
     whole, other = tmp_path / "whole.parquet", tmp_path / "other.parquet"
     springblock(*BATCH, "--output", whole)
-    springblock(*BATCH[:-4], "--first-seed", 2, *asked, "--output", other)
-    with pytest.raises(ValueError, match=rf"{name} is 0\.0 in .*whole\.parquet and .* in .*other"):
-        read_records([whole, other])
+    springblock(*BATCH, "--duration", 2e-6, "--output", other)
+    scenes = dict.fromkeys(run.scene for run in read_records([whole, other]))
+    assert differing(scene.values for scene in scenes) == ["duration"]
 
 
 def test_nothing_slow_is_imported_before_it_is_needed():

@@ -6,9 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from springblock.io.identity import identity
+from springblock.io.rows import scene_of
 from springblock.io.schemas import SCENE
 from springblock.model.blockmap import BlockMap
-from springblock.model.scene import COLUMNS, Scene
+from springblock.model.scene import FIELDS, Scene, differing, expand
 
 STRIPS = {"n_p": 58, "n_s": 62, "n_p2": 8, "n_s2": 2}
 CUT = Scene(120, **STRIPS, n_p3=8, n_s3=2)
@@ -21,7 +23,7 @@ def field(values):
     return BlockMap("strong-00000000", np.array(values, float), Path("strong.npy"))
 
 
-STRONG = Scene(2, mu_static_field=field(np.ones((2, 2))), varied={"distribution": "weibull"})
+STRONG = Scene(2, mu_static_field=field(np.ones((2, 2))), distribution="weibull")
 
 
 def test_a_third_level_cuts_the_strips_across():
@@ -42,11 +44,12 @@ def test_a_third_level_may_follow_the_grooves():
     np.testing.assert_array_equal(wide.pattern.contact, narrow.pattern.contact)
 
 
-def test_varied_constants_belong_to_a_scene():
-    fast = Scene(9, varied={"step": "1e-8", "gamma": 0})
-    assert fast.varied == (("gamma", 0.0), ("step", 1e-8))
-    assert fast == Scene(9, varied=(("step", 1e-8), ("gamma", 0.0)))
-    assert fast != Scene(9)
+def test_scenes_differ_in_the_constants_that_are_not_the_same():
+    fast = Scene(9, slider_velocity=1e-3, gamma=0)
+    assert differing(scene.values for scene in (Scene(9), fast)) == ["slider_velocity", "gamma"]
+    assert fast == Scene(9, gamma=0.0, slider_velocity=1e-3) != Scene(9)
+    assert Scene(9, n_rows=9, sample_interval=2e-7) == Scene(9)
+    assert Scene(9, slider_velocity=5e-2).sample_interval == 2e-8  # for as many samples as it needs
 
 
 @pytest.mark.parametrize(
@@ -54,41 +57,52 @@ def test_varied_constants_belong_to_a_scene():
     [
         (
             CUT,
-            "n_blocks-120/level-3/n_p-58/n_s-62/n_p2-8/n_s2-2/n_p3-8/n_s3-2/along_3-y/direction-x",
-            "--n-p2 8 --n-s2 2 --n-p3 8 --n-s3 2 --along-3 y --direction x",
+            "hierarchy-58-62-8-2-8-2-y-x",
+            "--n-blocks 120 --n-p 58 --n-s 62 --n-p2 8 --n-s2 2 --n-p3 8 --n-s3 2 --along-3 y",
         ),
         (
             Scene(24, 4, 2, n_rows=12, direction="30"),
-            "n_blocks-24/n_rows-12/level-1/n_p-4/n_s-2/direction-30",
-            "--n-blocks 24 --n-rows 12 --n-p 4 --n-s 2 --direction 30",
+            "pillars-4-2-30",
+            "--n-blocks 24 --n-p 4 --n-s 2 --direction 30 --n-rows 12",
         ),
         (
-            Scene(9, varied={"step": "1e-8", "gamma": 0}),
-            "n_blocks-9/level-0/gamma-0.0/step-1e-08/direction-x",
-            "--vary gamma=0.0 --vary step=1e-08 --direction x",
+            Scene(9, step=1e-8, gamma=0, duration=2e-5, snapshot_times=[1e-5, 2e-5]),
+            "flat-x-gamma-0.0-step-1e-08",
+            "--n-blocks 9 --gamma 0.0 --step 1e-08 --duration 2e-05 --snapshot-times 1e-05,2e-05",
         ),
         (
-            Scene(9, varied={"slip_distance": "1e-7", "law": "slip_weakening"}),
-            "n_blocks-9/level-0/law-slip_weakening/slip_distance-1e-07/direction-x",
-            "--vary law=slip_weakening --vary slip_distance=1e-07 --direction x",
+            Scene(9, law="slip_weakening", slip_distance=1e-7),
+            "flat-x-law-slip_weakening-slip_distance-1e-07",
+            "--n-blocks 9 --law slip_weakening --slip-distance 1e-07",
         ),
         (
             OWN,  # named by its contents and read from its file
-            "n_blocks-3/n_rows-2/mask-corner-1a2b3c4d/edges-periodic/direction-x",
-            "--mask 'a corner.npy' --edges periodic --direction x",
+            "corner-1a2b3c4d-x",
+            "--edges periodic --mask 'a corner.npy'",
         ),
         (
             STRONG,
-            "n_blocks-2/level-0/mu_static_field-strong-00000000/distribution-weibull/direction-x",
-            "--mu-static strong.npy --vary distribution=weibull --direction x",
+            "flat-x-distribution-weibull",
+            "--n-blocks 2 --mu-static-field strong.npy --distribution weibull",
         ),
     ],
 )
 def test_folders_options_and_rows_identify_a_scene(scene, folder, options):
     assert scene.folder == folder
-    assert scene.arguments.endswith(options)
-    assert Scene.from_row(scene.row) == scene
-    assert set(scene.row) == set(COLUMNS) == set(SCENE.names)
+    assert scene.options == options
+    assert list(identity(scene)) == SCENE.names == ["level", *FIELDS]
+    assert scene_of(identity(scene)) == scene
+
+
+def test_a_grid_has_every_combination_in_the_order_of_the_fields():
+    """n_s follows n_p, and of several laws each has only its own constants."""
+    sizes = [
+        (row["n_p"], row["n_s"]) for row in expand({"n_s": ["n_p", "n_p/2", 3], "n_p": [4, 6]})
+    ]
+    assert sizes == [(4, 4), (4, 2), (4, 3), (6, 6), (6, 3), (6, 3)]
+    laws = {"slip_distance": [1e-8, 2e-8], "law": ["coulomb", "slip_weakening"]}
+    rows = [(row["law"], row.get("slip_distance")) for row in expand(laws)]
+    assert rows == [("coulomb", None)] * 2 + [("slip_weakening", 1e-8), ("slip_weakening", 2e-8)]
 
 
 def test_a_mask_replaces_the_pattern():
@@ -100,13 +114,13 @@ def test_a_mask_replaces_the_pattern():
 
 
 def test_a_table_contains_only_the_name_of_a_mask():
-    known = Scene.from_row(OWN.row)
+    known = scene_of(identity(OWN))
     assert known == OWN
     assert (known.shape, known.mask.values) == ((2, 3), None)
     with pytest.raises(ValueError, match="mask corner-1a2b3c4d are not available, only its name"):
         _ = known.contact
-    assert OWN.row["n_rows"] == 2
-    assert Scene(9).row["n_rows"] == 9
+    assert identity(OWN)["n_rows"] == 2
+    assert identity(Scene(9))["n_rows"] == 9
 
 
 def test_the_paper_has_squares_with_edges_whose_coefficients_are_drawn():
@@ -118,7 +132,7 @@ def test_the_paper_has_squares_with_edges_whose_coefficients_are_drawn():
 
 
 def test_coefficients_are_read_from_their_file_and_matter_in_contact_only():
-    assert STRONG.files == {"mu_static_field": Path("strong.npy")}
+    assert STRONG.files == ["strong.npy"]
     mask = replace(CORNER, values=np.array([[True, False]]))
     Scene(mask=mask, mu_static_field=field([[1.0, np.nan]]))
     with pytest.raises(ValueError, match="strong-00000000 must be finite and not negative"):
@@ -135,19 +149,12 @@ ONES = field(np.ones((120, 120)))
         ({"mask": replace(CORNER, values=None), **STRIPS}, "mask cannot be combined with n_p, n_s"),
         ({"mask": replace(CORNER, values=None), "n_p2": 8}, "mask cannot be combined with n_p2"),
         ({"mu_static_field": field(np.ones((2, 3)))}, r"strong-00000000 must have the shape"),
-        ({"mu_static_field": ONES, "varied": {"mu_static_std": 0.3}}, "mu_static_std cannot be"),
-        (
-            dict.fromkeys(["mu_static_field", "mu_dynamic_field"], ONES)
-            | {"varied": {"distribution": "weibull"}},
-            "distribution cannot be varied",
-        ),
         ({"n_p": 20}, "n_p = 20 needs n_s"),
         ({"n_s": 10}, "n_s = 10 needs n_p"),
         ({"n_p": 58, "n_s": 62, "n_p3": 8, "n_s3": 2}, "n_p3 = 8 needs n_p2"),
         (STRIPS | {"along_3": "x"}, "along_3 must be left out without n_p3, not 'x'"),
-        ({"varied": {"a-b": 1}}, "unknown constant 'a-b'; choose from youngs_modulus, .*, step"),
-        ({"varied": {"direction": 30}}, "direction is not a constant"),
-        ({"varied": {"gamma": "much"}}, "gamma must be a number, not 'much'"),
+        ({"gamma": -1.0}, "Scene.gamma must be finite and zero or positive"),
+        ({"edges": "open"}, "Scene.edges must be one of free, periodic, not 'open'"),
     ],
 )
 def test_invalid_scenes_are_refused(given, sentence):

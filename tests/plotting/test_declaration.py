@@ -14,6 +14,7 @@ from snakemake.utils import update_config
 from plotting.test_paper_results import NORMAL_FORCE, SIZE, record
 from springblock.cli import main
 from springblock.cli.figure import ensembles
+from springblock.io.identity import identity
 from springblock.io.parquet import rows_to_table, write
 from springblock.io.records import Record
 from springblock.io.schemas import BATCH
@@ -31,7 +32,7 @@ def configuration(*files: str):
     merged: dict = {}
     for file in files:
         update_config(merged, yaml.safe_load((CONFIG / file).read_text()))
-    groups = {group: [e.scene for e in some] for group, some in study.ensembles(merged).items()}
+    groups = {group: list(some) for group, some in study.ensembles(merged).items()}
     return merged, groups
 
 
@@ -121,10 +122,9 @@ def test_a_picture_keeps_its_caption_with_the_size_of_its_sample(tmp_path):
 
 def batch(path: Path, run: Record) -> Path:
     """A file that holds one run; what figures do not read is zero in it."""
-    row = {name: getattr(run, name, 0) for name in BATCH.names} | run.scene.row
-    row["contact"] = run.scene.contact.ravel()
-    row |= dict(run.material.items()) | {"integrator": "leapfrog"}
-    row |= {"t_det": run.t_det.ravel(), "sample_interval": run.time[1]}
+    scene = replace(run.scene, sample_interval=run.time[1])
+    row = {name: getattr(run, name, 0) for name in BATCH.names} | identity(scene)
+    row |= {"contact": scene.contact.ravel(), "t_det": run.t_det.ravel()}
     write(rows_to_table([row], BATCH), path, {})
     return path
 
@@ -149,7 +149,9 @@ def test_scenes_that_a_figure_cannot_tell_apart_are_refused(tmp_path):
     by_n_s = ensembles(batches, "n_s").items()
     assert [(n_s, len(group)) for n_s, group in by_n_s] == [(6, 1), (2, 1)]
     sentence = refusal("figure_5", *map(str, batches), "--output", "figure.png")
-    assert sentence.startswith("Error: several scenes: n_blocks-24/level-1/n_p-6/n_s-2/")
+    assert sentence.startswith(
+        "Error: several scenes: n_blocks = 24, n_p = 6, n_s = 6; n_blocks = 24, n_p = 6, n_s = 2;"
+    )
 
 
 def test_a_pattern_is_drawn_from_options(tmp_path):

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from springblock.analysis.statistics import mean_interval
+from springblock.io.identity import identity
 from springblock.model.blockmap import BlockMap
-from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.plotting import sweep
 from springblock.plotting.lines import axes, lines
@@ -19,18 +19,16 @@ SPEEDS = (2.5e-4, 5e-4, 1e-3, 4e-3)
 
 def rows(scene, friction, seeds=5):
     """Rows of the table of realisations, whose friction scatters about a mean."""
-    constants = dict(Material().items()) | dict(scene.varied)
     rng = np.random.default_rng(7)
     numbers = {"dynamic_friction": 0.6, "t_max": 3e-4, "t_avg": 2.9e-4, "t_first": 1e-4}
     return [
-        {**scene.row, **constants, **numbers, "static_friction": friction + 0.01 * noise, "seed": i}
+        {**identity(scene), **numbers, "static_friction": friction + 0.01 * noise, "seed": i}
         for i, noise in enumerate(rng.standard_normal(seeds))
     ]
 
 
 def at(speed, **scene):
-    own = () if speed == Material().slider_velocity else (("slider_velocity", speed),)
-    return Scene(120, **scene, varied=own)
+    return Scene(120, **scene, slider_velocity=speed)
 
 
 @pytest.fixture
@@ -52,9 +50,8 @@ def test_scenes_that_differ_in_nothing_else_share_a_line(two_lines):
 
 
 def test_coulombs_law_is_where_weakening_takes_no_way():
-    weakening = ("law", "slip_weakening")
-    laws = [(weakening, ("slip_distance", distance)) for distance in (1e-8, 1e-7)]
-    table = [row for varied in ((), *laws) for row in rows(Scene(12, varied=varied), 0.7)]
+    laws = [{"law": "slip_weakening", "slip_distance": distance} for distance in (1e-8, 1e-7)]
+    table = [row for law in ({}, *laws) for row in rows(Scene(12, **law), 0.7)]
     (line,) = lines(table, "slip_distance").values()
     assert list(line) == [0.0, 1e-8, 1e-7]
 
@@ -128,7 +125,7 @@ def test_a_line_is_named_by_its_mask():
     """Without the digest, unless two files have one name."""
     masks = {n: BlockMap(f"islands-{n:08x}", np.eye(12) > 0) for n in (1, 2)}
     one, two = (
-        [r for s in SPEEDS for r in rows(replace(at(s), n_blocks=12, mask=mask), 0.8)]
+        [r for s in SPEEDS for r in rows(replace(at(s), n_blocks=12, n_rows=12, mask=mask), 0.8)]
         for mask in masks.values()
     )
     assert list(lines(one, "slider_velocity")) == ["islands"]

@@ -40,6 +40,7 @@ from springblock.claims import STATEMENTS
 from springblock.claims.table import rows as judged
 from springblock.cli import main
 from springblock.cli.simulate import batch_table
+from springblock.io.identity import identity
 from springblock.io.parquet import write
 from springblock.io.records import Record
 from springblock.io.rows import Row
@@ -98,8 +99,8 @@ def accuracy() -> str:
     single = uneven(precision.precision_rows(), "error", "ci_low", "ci_high")
     cases = [("size", "agrees"), ("size", "unstable"), ("step", "agrees"), ("damping", "refused")]
     stability = [{"family": name, "expected": word, "outcome": word} for name, word in cases]
-    errors = {-3.0: "", 1.0: "", 2.0: "", 700.0: "gamma=1e7"}
-    realisations = [{"energy_error": 1e-6 * e, "varied": varied} for e, varied in errors.items()]
+    errors = {-3.0: Scene(12), 1.0: Scene(12), 2.0: Scene(12), 700.0: Scene(12, gamma=1e7)}
+    realisations = [identity(scene) | {"energy_error": 1e-6 * e} for e, scene in errors.items()]
     columns = ("value", "scale", "deviation", "bias", "bias_error", "ci_low", "ci_high")
     whole = uneven(precision.production_rows(), *columns)
     return rendered("accuracy.md", **values(single, stability, realisations, whole))
@@ -207,11 +208,14 @@ def plans() -> str:
         for file in dict.fromkeys(("config", name)):
             config = merged(config, yaml.safe_load((ROOT / f"config/{file}.yaml").read_text()))
         whole = study.completed(config)
-        groups = study.ensembles(whole)
-        for kind, some in (("runs", groups), ("drawn", study.for_figures(whole, groups))):
-            for group, members in some.items():
-                lines.append(f"# {name}, {group}, {kind}: {len(members)} ensembles")
-                lines += [described(each) for each in members if kind == "runs"]
+        groups, first = study.ensembles(whole), whole["first_seed"]
+        for group, members in groups.items():
+            lines.append(f"# {name}, {group}, runs: {len(members)} scenes")
+            for scene, seeds in members.items():
+                last = first + seeds - 1
+                lines.append(f"{scene.folder}: {scene}; seeds {first} to {last}")
+        for group, some in study.for_figures(whole, groups).items():
+            lines.append(f"# {name}, {group}, drawn: {len(some)} scenes")
     for table, parts in TABLES.items():
         for part, scenes in parts.items():
             lines.append(f"# {table}, {part}: {len(scenes)} surfaces")
@@ -226,20 +230,12 @@ def merged(first: Any, second: Any) -> Any:
     return first | {key: merged(first.get(key), value) for key, value in second.items()}
 
 
-def described(ensemble: study.Planned) -> str:
-    seeds = f"seeds {ensemble.seeds[0]} to {ensemble.seeds[-1]}"
-    duration = f", {ensemble.duration:g} s" if ensemble.duration else ""
-    times = f", fields at {ensemble.snapshot_times}" if ensemble.snapshot_times else ""
-    return f"{ensemble.scene.folder}: {ensemble.scene}; {seeds}{duration}{times}"
-
-
 def summary(run: Record) -> Row:
-    """Columns of a realisation, which Young's modulus varies and energy does not quite close."""
-    constants = run.constants | dict(run.scene.varied)
-    constants |= {"integrator": "leapfrog", "step": 2e-8, "sample_interval": 1e-6} | constants
-    computed = {name: getattr(run, name, 0.0) for name in SUMMARY.names}
+    """Columns of a realisation whose energy does not quite close."""
+    scene = replace(run.scene, sample_interval=1e-6, snapshot_times=run.snapshot_times)
+    computed = {name: getattr(run, name, 0.0) for name in SUMMARY.names} | identity(scene)
     own = {"seed": run.seed, "energy_error": 1e-6 * (run.seed - 2), "steps": 15_000 + run.seed}
-    return {name: (computed | run.scene.row | constants | own)[name] for name in SUMMARY.names}
+    return {name: (computed | own)[name] for name in SUMMARY.names}
 
 
 def batch(file: Path, runs: list[Record]) -> Path:
@@ -249,7 +245,6 @@ def batch(file: Path, runs: list[Record]) -> Path:
         | {name: getattr(run, name) for name in ("force", "detachments", "switches")}
         | {"normal_force": run.normal_force}
         | {name: getattr(run, name).ravel() for name in ("t_det", "contact", "snapshots")}
-        | {"snapshot_times": run.snapshot_times}
         for run in runs
     ]
     write(batch_table(rows), file, ORIGIN)
@@ -264,7 +259,7 @@ def commands() -> str:
         flat = batch(folder / "flat.parquet", few[paper.FLAT])
         small = batch(folder / "pillars-6.parquet", few[paper.PILLARS[1]])
         large = batch(folder / "pillars-24.parquet", few[paper.PILLARS[2]][:4])
-        varied = [scene for scene in (*paper.FEW, *paper.MANY) if scene.varied]
+        varied = [*paper.FEW, *paper.MANY]
         others = [batch(folder / f"{i}.parquet", few[scene]) for i, scene in enumerate(varied)]
         kept = {"snapshot_times": np.array([1e-5]), "snapshots": np.zeros((1, 2, paper.N, paper.N))}
         grooved = batch(folder / "grooves.parquet", [replace(r, **kept) for r in few[paper.ALONG]])

@@ -7,6 +7,7 @@ import pytest
 from continuum import chapter
 from precision import production_rows
 from springblock.claims.rule import Case
+from springblock.io.identity import identity
 from springblock.model.scene import Scene
 from springblock.pages import rendered
 from springblock.report.findings import FILE, lowest_size, values
@@ -40,7 +41,7 @@ CLAIMS = [
 def realisations(n_blocks, frictions):
     """Three runs on pillars of each size, with so much static friction."""
     return [
-        Scene(n_blocks, n_p=n_p, n_s=n_p).row | {"static_friction": friction + bias}
+        identity(Scene(n_blocks, n_p=n_p, n_s=n_p)) | {"static_friction": friction + bias}
         for n_p, friction in frictions.items()
         for bias in (-1e-4, 0.0, 1e-4)
     ]
@@ -53,8 +54,8 @@ def test_the_size_of_lowest_friction_is_that_of_the_papers_pillars():
     """Other lattices, gaps, constants and directions do not count."""
     other = [Scene(60, n_p=30, n_s=30), Scene(120, n_p=3, n_s=1), Scene(120)]
     other += [Scene(120, n_p=3, n_s=3, direction="y")]
-    other += [Scene(120, n_p=3, n_s=3, varied=(("thickness", 4e-5),))]
-    found = lowest_size([*PAPER, *(each.row | {"static_friction": 0.1} for each in other)])
+    other += [Scene(120, n_p=3, n_s=3, thickness=4e-5)]
+    found = lowest_size([*PAPER, *(identity(each) | {"static_friction": 0.1} for each in other)])
     assert found == (6, [6, 7])
 
 

@@ -64,7 +64,7 @@ def test_samples_are_close_enough_for_static_friction_however_fast_the_slider(ve
 
 def test_samples_of_slow_sliders_are_those_of_the_paper():
     for velocity in (5e-5, 5e-4, 5e-3):
-        assert Setup().vary({"slider_velocity": velocity}).interval == 2e-7
+        assert Setup(Material(slider_velocity=velocity)).interval == 2e-7
     assert Setup(Material(mu_static=0.0)).interval == 2e-7  # it creeps from the start
     assert Setup(Material(slider_velocity=5e-2), sample_interval=1e-6).interval == 1e-6
 

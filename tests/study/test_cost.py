@@ -1,5 +1,7 @@
 """Requests to a queue: enough for the largest surface, and little for a small one."""
 
+from dataclasses import replace
+
 import pytest
 
 from springblock import Material, Surface, simulate
@@ -15,8 +17,8 @@ def test_a_run_takes_until_the_slider_springs_carry_the_whole_threshold():
     """K_s v t = mu_s P l²; pillars on a quarter of a surface carry four times as much."""
     paper, flat = Material(), Scene(12)
     time = paper.mu_static * paper.pressure * paper.spacing**2 / (paper.k_s * paper.slider_velocity)
-    alone, pillars = (cpu_seconds(scene, Setup(), None) for scene in (flat, Scene(12, 3, 3)))
-    assert alone == pytest.approx(cpu_seconds(flat, Setup(), time))
+    alone, pillars = (cpu_seconds(scene) for scene in (flat, Scene(12, 3, 3)))
+    assert alone == pytest.approx(cpu_seconds(replace(flat, duration=time)))
     assert pillars == pytest.approx(4.0 * alone)
 
 
@@ -29,12 +31,12 @@ def test_a_run_ends_about_when_its_surface_is_loaded(scene):
 def test_requests_grow_with_the_work():
     """N, realisations, a smaller step and four force evaluations a step."""
     large = Scene(240, 20, 20)
-    asked = minutes(large, Setup(), None, 10)
-    assert asked > minutes(Scene(120, 20, 20), Setup(), None, 10)
-    assert asked > minutes(large, Setup(), None, 1)
-    assert minutes(large, Setup(step=1e-8), None, 10) > asked
-    assert minutes(large, Setup(integrator="rk4"), None, 10) > asked
-    once, twice = (cpu_seconds(large, Setup(), duration) for duration in (1e-4, 2e-4))
+    asked = minutes(large, 10)
+    assert asked > minutes(Scene(120, 20, 20), 10)
+    assert asked > minutes(large, 1)
+    assert minutes(replace(large, step=1e-8), 10) > asked
+    assert minutes(replace(large, integrator="rk4"), 10) > asked
+    once, twice = (cpu_seconds(replace(large, duration=t)) for t in (1e-4, 2e-4))
     assert twice == pytest.approx(2.0 * once)
 
 

@@ -209,7 +209,7 @@ def test_a_law_that_fails_within_a_run_ends_it_in_one_sentence(
         "def checked(slip):\n    if slip > 1e-8:\n        raise ValueError('beyond the data')\n"
         "    return 0.0\n"
     )
-    run = ("simulate", "--n-blocks", 2, "--material", "slider_velocity=5e-2", "--law", file)
+    run = ("simulate", "--n-blocks", 2, "--slider-velocity", "5e-2", "--law", file)
     said = springblock(*run, "--output", tmp_path / "run.parquet", refused=True)
     where = r" at 0\.\d+ m/s with slip = \d\.\d+e-\d+"
     assert re.search(rf": before t = \S+ s: {file}: {sentence.format(where)}", said)

@@ -17,15 +17,15 @@ from springblock import (
     simulate,
 )
 from springblock.accuracy.stability.cases import Pull
-from springblock.io.schemas import SETUP
 from springblock.model.material import LAWS
+from springblock.model.scene import FIELDS
 from springblock.solver.integrators import INTEGRATORS, limit
 from validation.test_surfaces import assert_moved, moved
 
 LOADING = 200  #: steps until a block without neighbours would detach
 STEPS = 500
 #: Units of constants by name.
-UNITS = {column.name: column.metadata[b"unit"].decode() for column in SETUP}
+UNITS = {name: each.metadata["unit"] for name, each in FIELDS.items()}
 
 
 class Case(NamedTuple):

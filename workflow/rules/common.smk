@@ -53,4 +53,4 @@ if workflow.is_main_process:
 
 
 wildcard_constraints:
-    scene="|".join(map(re.escape, PLANNED.ensembles)),
+    scene="|".join(map(re.escape, PLANNED.scenes)),

@@ -51,8 +51,8 @@ rule masks:
 rule prelude:
     """Load a scene up to its first detachment."""
     input:
-        lambda wildcards: PLANNED.files(wildcards.scene),
-        lambda wildcards: f"{RESULTS}/kernels/{PLANNED.integrator(wildcards.scene)}",
+        lambda wildcards: PLANNED.scenes[wildcards.scene].files,
+        lambda wildcards: f"{RESULTS}/kernels/{PLANNED.scenes[wildcards.scene].integrator}",
     output:
         f"{RESULTS}/preludes/{{scene}}.npz",
     log:
@@ -61,7 +61,7 @@ rule prelude:
         mem_mb=lambda wildcards, attempt: attempt * PLANNED.memory(wildcards),
         runtime=lambda wildcards, attempt: attempt * PLANNED.minutes(wildcards),
     params:
-        scene=lambda wildcards: PLANNED.options(wildcards.scene),
+        scene=lambda wildcards: PLANNED.scenes[wildcards.scene].options,
     shell:
         "springblock prelude {params.scene} --output {output:q} > {log:q} 2>&1"
 
@@ -69,14 +69,14 @@ rule prelude:
 rule preludes:
     """Load all scenes up to their first detachment."""
     input:
-        expand(rules.prelude.output, scene=PLANNED.ensembles),
+        expand(rules.prelude.output, scene=PLANNED.scenes),
     localrule: True
 
 
 rule simulate_batch:
     """Simulate realisations of a scene, from the first seed to the last."""
     input:
-        lambda wildcards: PLANNED.files(wildcards.scene),
+        lambda wildcards: PLANNED.scenes[wildcards.scene].files,
         prelude=rules.prelude.output,
     output:
         f"{RESULTS}/realisations/{{scene}}/{{first}}-{{last}}.parquet",
@@ -89,24 +89,23 @@ rule simulate_batch:
         mem_mb=lambda wildcards, attempt: attempt * PLANNED.memory(wildcards),
         runtime=lambda wildcards, attempt: attempt * PLANNED.minutes(wildcards),
     params:
-        scene=lambda wildcards: PLANNED.options(wildcards.scene),
-        times=lambda wildcards: PLANNED.times(wildcards.scene),
+        scene=lambda wildcards: PLANNED.scenes[wildcards.scene].options,
     shell:
-        "springblock simulate {params.scene} {params.times} --prelude {input.prelude:q} "
+        "springblock simulate {params.scene} --prelude {input.prelude:q} "
         "--first-seed {wildcards.first} --last-seed {wildcards.last} --output {output:q} > {log:q} 2>&1"
 
 
 rule simulate:
     """Simulate all realisations."""
     input:
-        PLANNED.batches(PLANNED.names),
+        PLANNED.batches(PLANNED.seeds),
     localrule: True
 
 
 rule fields_of_scene:
     """Store fields of the first run of a scene at its snapshot_times."""
     input:
-        lambda wildcards: PLANNED.files(wildcards.scene),
+        lambda wildcards: PLANNED.scenes[wildcards.scene].files,
         prelude=rules.prelude.output,
     output:
         fields=f"{RESULTS}/fields/{{scene}}.nc",
@@ -117,11 +116,10 @@ rule fields_of_scene:
         mem_mb=lambda wildcards, attempt: attempt * PLANNED.memory(wildcards),
         runtime=lambda wildcards, attempt: attempt * PLANNED.minutes(wildcards),
     params:
-        scene=lambda wildcards: PLANNED.options(wildcards.scene),
-        times=lambda wildcards: PLANNED.times(wildcards.scene),
-        seed=lambda wildcards: PLANNED.ensembles[wildcards.scene].seeds[0],
+        scene=lambda wildcards: PLANNED.scenes[wildcards.scene].options,
+        seed=lambda wildcards: config["first_seed"],
     shell:
-        "springblock simulate {params.scene} {params.times} --prelude {input.prelude:q} "
+        "springblock simulate {params.scene} --prelude {input.prelude:q} "
         "--first-seed {params.seed} --fields {output.fields:q} --output {output.run:q} > {log:q} 2>&1"
 
 

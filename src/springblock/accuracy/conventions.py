@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from springblock.analysis.statistics import students_t
-from springblock.io.rows import Row
+from springblock.io.rows import Row, scene_of
 
 SCENES = ("flat", "pillared", "grooved")
 COMPARISONS = ("reference", "paired")
@@ -47,14 +47,11 @@ def ensemble_error(scatter: Mapping[str, Any], realisations: int = ENSEMBLE) -> 
     return float(deviation / realisations**0.5)
 
 
-def suspects(realisations: Iterable[Row], scene: Iterable[str]) -> list[Row]:
-    """Return rows whose energy residual is too large, or out of line with those of the same scene.
-
-    `scene` names the columns that distinguish scenes.
-    """
-    keys, groups = list(scene), defaultdict(list)
+def suspects(realisations: Iterable[Row]) -> list[Row]:
+    """Return rows whose energy residual is too large, or out of line with those of their scene."""
+    groups = defaultdict(list)
     for row in realisations:
-        groups[tuple(row[key] for key in keys)].append(row)
+        groups[scene_of(row)].append(row)
     found = []
     for rows in groups.values():
         usual = median(abs(row["energy_error"]) for row in rows)

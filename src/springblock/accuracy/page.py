@@ -19,7 +19,7 @@ from springblock.accuracy.conventions import (
     half_width,
 )
 from springblock.analysis.statistics import Interval
-from springblock.io.rows import Row, select
+from springblock.io.rows import Row, alike, select
 from springblock.model.defaults import STEP
 from springblock.model.material import Material
 
@@ -92,7 +92,7 @@ def values(
             for step in (PAPER_STEP, 2.0 * PAPER_STEP)
         ],
         "n_runs": len(residuals),
-        "usual_energy": max(abs(row["energy_error"]) for row in realisations if not row["varied"]),
+        "usual_energy": max(abs(row["energy_error"]) for row in alike(realisations)),
         "worst_energy": max(residuals),
         "median_energy": median(residuals),
         "stability": stability,

@@ -5,11 +5,11 @@ from collections import Counter
 import numpy as np
 import pyarrow as pa
 
-from springblock.model.scene import COLUMNS
+from springblock.io.schemas import SCENE
 
 #: CPU times, which no second study repeats.
 _MEASURED = "cpu_seconds", "prelude_seconds"
-_KEYS = [*COLUMNS, "seed", "side", "r"]  #: columns by which rows are matched
+_KEYS = [*SCENE.names, "seed", "side", "r"]  #: columns by which rows are matched
 
 
 def differences(first: pa.Table, second: pa.Table) -> list[str]:
@@ -34,13 +34,12 @@ def differences(first: pa.Table, second: pa.Table) -> list[str]:
     return [rows, *found] if found or first.num_rows + second.num_rows > 2 * len(common) else []
 
 
-def _places(table: pa.Table) -> dict[tuple[object, ...], int]:
+def _places(table: pa.Table) -> dict[tuple[str, int], int]:
     """Row number of each key: values of `_KEYS`, and how many rows before have the same."""
-    columns = [table[name].to_pylist() for name in _KEYS if name in table.column_names]
-    keys = zip(*columns, strict=True) if columns else [()] * table.num_rows
-    places, before = {}, Counter[tuple[object, ...]]()
-    for i, key in enumerate(keys):
-        places[*key, before[key]] = i
+    rows = table.select([name for name in _KEYS if name in table.column_names]).to_pylist()
+    places, before = {}, Counter[str]()
+    for i, key in enumerate(map(str, rows)):
+        places[key, before[key]] = i
         before[key] += 1
     return places
 

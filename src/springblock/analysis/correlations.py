@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from springblock.analysis.correlation import Correlation, Length, groove_times, side_times
+from springblock.io.identity import identity
 from springblock.io.records import Record
 from springblock.io.rows import Row, limits
 from springblock.model.numbers import Array
@@ -24,12 +25,12 @@ def correlations(records: Sequence[Record]) -> tuple[list[Row], list[Row]]:
 def _sides(records: Sequence[Record]) -> Iterator[tuple[Row, Array]]:
     """Yield the columns that name each kind of side, and its detachment times."""
     scene = records[0].scene
-    others = {str(record.scene) for record in records} - {str(scene)}
+    others = [record.scene for record in records if record.scene != scene]
     if others:
-        raise ValueError(f"several scenes: {scene}; {others.pop()}; give batches of one")
+        raise ValueError(f"several scenes: {scene}, and {others[0]}; give batches of one")
     if not scene.sides:
         raise ValueError(f"{scene}: no whole sides of 6 blocks or more")
-    columns = {**scene.row, **records[0].constants, "realisations": len(records)}
+    columns = identity(scene) | {"realisations": len(records)}
     for side in scene.sides:
         yield columns | {"side": side}, side_times(records, scene.pattern, side)
     if scene.level == 2:

@@ -7,20 +7,18 @@ from typing import NamedTuple
 import numpy as np
 
 from springblock.analysis.statistics import Interval, difference_interval, mean_interval
-from springblock.io.rows import Row
-from springblock.io.schemas import ASKED, SCENE, SETUP
+from springblock.io.rows import Row, scene_of
 from springblock.model.asperities import DRAWN
 from springblock.model.direction import degrees
-from springblock.model.material import LAWS, expanded
-from springblock.model.scene import Scene
+from springblock.model.material import LAWS
+from springblock.model.scene import Scene, differing
 
 #: Observables of a realisation, in the order of the tables.
 OBSERVABLES = ("static_friction", "dynamic_friction", "t_max", "t_avg", "t_first")
-_SETUP = (*SCENE.names, *SETUP.names, *ASKED.names)
 #: Columns that determine, with the seed, the friction coefficients of a run.
 _THRESHOLDS = {"n_blocks", "n_rows", "edges", "mu_static_field", "mu_dynamic_field", *DRAWN}
 
-Names = Mapping[str, object]  #: scene, constants and times of an ensemble, by name
+Names = Mapping[str, object]  #: `Scene.values` of an ensemble, or some of them
 
 
 class Ensemble(NamedTuple):
@@ -72,30 +70,31 @@ def ensembles(rows: Iterable[Row], by: Sequence[str] = ()) -> list[Ensemble]:
     Repeated realisations count once. Different ones with the same names and seed, and an unknown
     name in `by`, are a ValueError.
     """
-    once: dict[tuple[object, ...], Row] = {}
+    once: dict[tuple[Scene, int], Row] = {}
     for row in rows:
-        _refuse_other(once.setdefault((*_names(row).items(), row["seed"]), row), row)
+        key = scene_of(row), row["seed"]
+        _refuse_other(*key, once.setdefault(key, row), row)
     found: dict[tuple[object, ...], Ensemble] = {}
-    for row in sorted(once.values(), key=lambda row: row["seed"]):
-        every = _names(row)
-        for key in by:
-            if key not in every:
-                raise ValueError(f"by: unknown name {key!r}; choose from {', '.join(every)}")
-        names = {key: value for key, value in every.items() if not by or key in by}
+    for (scene, _), row in sorted(once.items(), key=lambda each: each[0][1]):
+        every = scene.values
+        for name in by:
+            if name not in every:
+                raise ValueError(f"by: unknown name {name!r}; choose from {', '.join(every)}")
+        names = {name: value for name, value in every.items() if not by or name in by}
         found.setdefault(tuple(names.items()), Ensemble(names, [])).rows.append(row)
     members = list(found.values())
-    apart = telling(each.names for each in members)
+    apart = differing(each.names for each in members)
     return sorted(members, key=lambda each: [_order(name, each.names.get(name)) for name in apart])
 
 
-def _refuse_other(first: Row, row: Row) -> None:
-    """Refuse a run that differs from the first of its names and seed."""
+def _refuse_other(scene: Scene, seed: int, first: Row, row: Row) -> None:
+    """Refuse a run that differs from the first of its scene and seed."""
     for name in (*OBSERVABLES, "steps"):
         one, other = first[name], row[name]
         if one != other and not (one != one and other != other):  # NaN
             raise ValueError(
-                f"two runs of {Scene.from_row(row)}, seed {row['seed']}, differ: {name} is {one!r} "
-                f"and {other!r}; leave out one file. A law may not draw random numbers"
+                f"two runs of {scene}, seed {seed}, differ: {name} is {one!r} and {other!r}; "
+                "leave out one file. A law may not draw random numbers"
             )
 
 
@@ -108,19 +107,6 @@ def _order(name: str, value: object) -> tuple[float, str]:
     return (float([*LAWS].index(str(value))) if value in LAWS else np.inf), str(value)
 
 
-def _names(row: Row) -> dict[str, object]:
-    """Return scene, constants and times of a run by name, including varied constants."""
-    known = expanded({name: row[name] for name in _SETUP})
-    return {name: value for name, value in known.items() if name not in ("varied", "level")}
-
-
-def telling(members: Iterable[Names]) -> list[str]:
-    """Return the names whose values differ between ensembles."""
-    every = list(members)
-    names = dict.fromkeys(name for each in every for name in each)
-    return [name for name in names if len({str(each.get(name)) for each in every}) > 1]
-
-
 def mean(ensemble: Ensemble, observable: str) -> Interval:
     """Mean over seeds with its 95 % interval; its limits are NaN for a single seed."""
     with np.errstate(invalid="ignore"):
@@ -129,7 +115,7 @@ def mean(ensemble: Ensemble, observable: str) -> Interval:
 
 def constants(members: Sequence[Ensemble]) -> dict[str, object]:
     """Return the names that have the same value in all ensembles, with that value."""
-    apart = set(telling(each.names for each in members))
+    apart = set(differing(each.names for each in members))
     return {name: value for name, value in members[0].names.items() if name not in apart}
 
 
@@ -138,7 +124,7 @@ def from_first(members: Sequence[Ensemble]) -> Iterator[tuple[str, object, objec
 
     Each with the name and both values, among the ensembles that have this name.
     """
-    for name in telling(each.names for each in members):
+    for name in differing(each.names for each in members):
         having = [each for each in members if name in each.names]
         values = {each.names[name] for each in having}
         first, *others = sorted(values, key=partial(_order, name))

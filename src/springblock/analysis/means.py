@@ -3,28 +3,25 @@
 from collections.abc import Sequence
 from typing import Any
 
-import pyarrow as pa
-
-from springblock.analysis.ensembles import Change, Ensemble, from_first, mean, telling
+from springblock.analysis.ensembles import Change, Ensemble, from_first, mean
 from springblock.analysis.statistics import Interval, number
 from springblock.io.rows import Row
-from springblock.io.schemas import ASKED, SCENE, SETUP, said
-from springblock.model.scene import LENGTHS
+from springblock.model.scene import FIELDS, LENGTHS, differing
 
 #: Units of lengths and constants, by name.
 UNITS = {
-    field.name: unit
-    for field in (*SCENE, *SETUP, *ASKED)
-    if (unit := said(field)[0]) != "1" and not pa.types.is_string(field.type)
+    name: unit
+    for name, each in FIELDS.items()
+    if (unit := each.metadata["unit"]) not in ("1", "name")
 }
 
 #: Lengths and times that are zero where there is none.
-_NONE_AT_ZERO = {*LENGTHS, *ASKED.names}
+_NONE_AT_ZERO = {*LENGTHS, "duration", "snapshot_times"}
 
 
 def means(members: Sequence[Ensemble], of: Sequence[str], by: Sequence[str] = ()) -> list[Row]:
     """Return a row for each ensemble: what tells it apart, its number of runs and its means."""
-    names = by or telling(each.names for each in members)
+    names = by or differing(each.names for each in members)
     return [
         {name: each.names.get(name) for name in names}
         | {"runs": len(each.rows)}
@@ -35,7 +32,7 @@ def means(members: Sequence[Ensemble], of: Sequence[str], by: Sequence[str] = ()
 
 def differences(changed: Sequence[Change], of: Sequence[str]) -> list[Row]:
     """Return a row for each change: its ensemble, its numbers of runs and mean differences."""
-    names = telling(each.names for each in changed)
+    names = differing(each.names for each in changed)
     return [
         {name: each.names.get(name) for name in names}
         | {

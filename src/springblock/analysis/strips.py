@@ -1,12 +1,13 @@
 """Values of the page on where the model applies: friction of strips as wide as their grooves."""
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from springblock.analysis.statistics import Interval, mean_interval
-from springblock.io.rows import Row
+from springblock.io.rows import Row, scene_of
 from springblock.model.material import Material
 from springblock.model.scene import Scene
 
@@ -28,7 +29,8 @@ def values(realisations: Iterable[Row]) -> dict[str, Any]:
     """
     friction: dict[Scene, dict[int, float]] = {}
     for row in realisations:
-        friction.setdefault(Scene.from_row(row), {})[row["seed"]] = row["static_friction"]
+        scene = replace(scene_of(row), duration=0.0, snapshot_times=())
+        friction.setdefault(scene, {})[row["seed"]] = row["static_friction"]
     strips, numbers = [], []
     for scene in friction:
         width, n = scene.n_p2, scene.n_blocks

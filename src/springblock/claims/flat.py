@@ -65,9 +65,9 @@ def shear_springs(evidence: Evidence) -> Iterator[Finding]:
 
 def varied(evidence: Evidence, *names: str) -> list[Scene]:
     """Return, in order, flat surfaces whose only constants of their own are these and the step."""
-    found = [scene for scene in evidence.records if not scene.level]
-    alike = [s for s in found if {name for name, _ in s.varied} - {"step"} == set(names)]
-    return sorted(alike, key=lambda scene: scene.varied)
+    own = {s: surfaces.own_constants(evidence.records, s) for s in evidence.records if not s.level}
+    alike = [scene for scene in own if own[scene].keys() - {"step"} == set(names)]
+    return sorted(alike, key=lambda scene: tuple(own[scene].values()))
 
 
 @_on_flat("the amplitude of an oscillation at t_max over that at t = 0", ranges.NEGLIGIBLE)
@@ -82,11 +82,10 @@ def _larger_moduli(evidence: Evidence, paper: Material) -> Iterator[tuple[float,
     faster: such scenes count as those with the larger modulus.
     """
     for scene in varied(evidence, "youngs_modulus", "pressure"):
-        yield float(dict(scene.varied)["youngs_modulus"]), scene
+        yield scene.youngs_modulus, scene
     for scene in varied(evidence, "slider_velocity", "gamma"):
-        constants = dict(scene.varied)
-        slower = paper.slider_velocity / constants["slider_velocity"]
-        if np.isclose(slower, paper.gamma / constants["gamma"]):
+        slower = paper.slider_velocity / scene.slider_velocity
+        if np.isclose(slower, paper.gamma / scene.gamma):
             yield float(f"{paper.youngs_modulus * slower**2:.3g}"), scene
 
 
@@ -135,7 +134,7 @@ def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
 def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:
     for name in _DECISIVE:
         for scene in varied(evidence, name):
-            case = Case(constant=name, constant_value=dict(scene.varied)[name])
+            case = Case(constant=name, constant_value=getattr(scene, name))
             early = samples.share(over_runs(samples.before_peak, evidence.records[scene]))
             yield found_on(scene, _BEFORE, early, ranges.NEGLIGIBLE, case=case)
 

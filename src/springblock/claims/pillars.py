@@ -20,7 +20,6 @@ from springblock.claims.rule import Case, Evidence, Finding
 from springblock.claims.samples import Quantity, found_on, mean_over, over_runs, share_over
 from springblock.claims.surfaces import Mask, pillars, pillars_of
 from springblock.io.records import Record
-from springblock.model.material import Material
 from springblock.model.numbers import Array
 from springblock.model.scene import Scene
 from springblock.simulation.run import Run
@@ -249,10 +248,9 @@ def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
     """Return pillars by the scatter of mu_static, where all sizes to be compared are there."""
     groups: dict[float, list[Scene]] = {}
     for scene in evidence.records:
-        constants = dict(scene.varied)
-        scatter = constants.pop(_SCATTER, Material().mu_static_std)
-        if scene.level == 1 and scene.n_p == scene.n_s in _COMPARED and not constants:
-            groups.setdefault(scatter, []).append(scene)
+        others = surfaces.own_constants(evidence.records, scene).keys() - {_SCATTER}
+        if scene.level == 1 and scene.n_p == scene.n_s in _COMPARED and not others:
+            groups.setdefault(scene.mu_static_std, []).append(scene)
     return {s: scenes for s, scenes in sorted(groups.items()) if len(scenes) == len(_COMPARED)}
 
 
@@ -264,7 +262,8 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
 def _sizes_over_length(evidence: Evidence) -> Iterator[Finding]:
     """Yield the size of lowest static friction over l_c for each scatter and each fit."""
     for scatter, scenes in _by_scatter(evidence).items():
-        broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
+        broad = max(scenes, key=lambda s: s.n_p)
+        own = surfaces.own_constants(evidence.records, broad)
         candidates = scenes if own else _of_all_sizes(evidence)
         runs = evidence.records[broad]
         sizes = [scene.n_p for scene in _lowest(evidence, candidates).alike]

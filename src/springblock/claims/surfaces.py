@@ -1,6 +1,6 @@
 """Surfaces of statements: those simulated, the cases they make, and their parts."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from operator import attrgetter
 from typing import Any, TypeVar
@@ -18,16 +18,22 @@ SMALLEST = 4  #: n_p of the smallest pillars with a stress distribution of their
 ALONG = "x"  #: the paper's sliding direction
 
 
+def own_constants(table: Iterable[Scene], scene: Scene) -> dict[str, Any]:
+    """Return the constants in which a scene differs from the first, which has the study's."""
+    usual = next(iter(table)).constants
+    return {name: value for name, value in scene.constants.items() if value != usual[name]}
+
+
 def flat(table: Mapping[Scene, T]) -> dict[Scene, T]:
     """Return the flat surface with the study's constants, if it was simulated."""
-    found = [scene for scene in table if not scene.level and not scene.varied][:1]
+    found = [scene for scene in table if not scene.level and not own_constants(table, scene)][:1]
     return {scene: table[scene] for scene in found}
 
 
 def pillars(table: Mapping[Scene, T], smallest: int = SMALLEST) -> dict[Scene, T]:
     """Return scenes of square pillars with n_s = n_p and the study's constants, by n_p."""
-    equal = [s for s in table if s.level == 1 and s.n_p == s.n_s > 0 and not s.varied]
-    found = [s for s in equal if s.n_p >= smallest]
+    equal = [s for s in table if s.level == 1 and s.n_p == s.n_s > 0]
+    found = [s for s in equal if s.n_p >= smallest and not own_constants(table, s)]
     return {scene: table[scene] for scene in sorted(found, key=attrgetter("n_p"))}
 
 
@@ -65,7 +71,8 @@ def in_files(*scenes: Scene, folder: str = "realisations") -> str:
 
 def in_rows(table: str, scene: Scene, **more: str | int) -> str:
     """Name rows of a table of correlations of this scene."""
-    keys = {"N": scene.n_blocks, **scene.names, "direction": scene.direction, **more}
+    along = {"along_3": scene.along_3} if scene.along_3 else {}
+    keys = {"N": scene.n_blocks, **scene.lengths, **along, "direction": scene.direction, **more}
     return f"tables/{table}: {', '.join(f'{key} = {value}' for key, value in keys.items())}"
 
 

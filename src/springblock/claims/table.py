@@ -18,9 +18,8 @@ from springblock.claims.rule import (
 )
 from springblock.claims.stress import elastic_forces
 from springblock.io.records import Record, by_scene
-from springblock.io.rows import Row
+from springblock.io.rows import Row, scene_of
 from springblock.io.schemas import column, numbers, texts
-from springblock.model.scene import Scene
 
 #: Columns that tell the cases of a statement apart, null where they do not.
 CASE = [
@@ -117,14 +116,19 @@ def gathered(records: Iterable[Record], **tables: Iterable[Row]) -> Evidence:
     Scenes with too few realisations are left out.
     """
     found = by_scene(records)
+    usual = next(iter(found)).constants if found else {}
     tested = {scene: runs for scene, runs in found.items() if len(runs) >= ENOUGH}
     by_name: dict[str, RowsByScene] = {}
     for name in ("correlation", "correlation_length"):
-        rows_of = by_scene(tables[name], Scene.from_row)
-        by_name[name] = {scene: rows for scene, rows in rows_of.items() if scene in tested}
+        rows_of = by_scene(tables[name], scene_of)
+        by_name[name] = {
+            scene: rows
+            for scene, rows in rows_of.items()
+            if scene in tested and scene.constants == usual
+        }
     stress = {
         scene: elastic_forces(scene, runs[0].material)
         for scene, runs in found.items()
-        if scene.level and not scene.varied and scene.direction in ("x", "y")
+        if scene.level and scene.constants == usual and scene.direction in ("x", "y")
     }
     return Evidence(tested, **by_name, stress=stress, precision=list(tables["precision"]))

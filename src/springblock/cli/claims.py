@@ -8,16 +8,15 @@ import click
 from springblock.claims import STATEMENTS
 from springblock.claims.table import SCHEMA, gathered, rows
 from springblock.cli.options import INPUT, Output, load_as
-from springblock.io.parquet import load, refuse_mixture, rows_to_table, write
+from springblock.io.parquet import rows_to_table, write
 from springblock.io.records import read_records
 from springblock.io.rows import Row
 from springblock.provenance import of_study
 
 
 def _rows(name: str, table: Path | None) -> list[Row]:
-    """Return the rows of a table, if any, without those of scenes with varied constants."""
-    rows = load_as(name, table).to_pylist() if table else []
-    return [row for row in rows if not row.get("varied")]
+    """Return the rows of a table, if any."""
+    return load_as(name, table).to_pylist() if table else []
 
 
 _table = partial(click.option, type=INPUT)
@@ -41,8 +40,6 @@ def claims(
     The tests use BATCHES of realisations and tables. Statements whose data are missing are not
     tested.
     """
-    tables = [table for table in (correlation, correlation_length) if table]
-    refuse_mixture((file, load(file)) for file in (batches[0], *tables))
     evidence = gathered(
         read_records(batches, snapshots=True),
         correlation=_rows("correlation", correlation),

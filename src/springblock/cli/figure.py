@@ -9,8 +9,8 @@ from typing import Any
 import click
 
 from springblock.cli.options import INPUT, PICTURE, load_as, scene_options, with_options
-from springblock.io.parquet import load, refuse_mixture
 from springblock.io.records import Record, read_records
+from springblock.model.scene import differing
 from springblock.plotting import drawing
 from springblock.plotting.declaration import Declaration, span
 from springblock.plotting.figures import FIGURES
@@ -25,20 +25,22 @@ def ensembles(batches: Paths, *keys: str) -> dict[Any, list[Record]]:
     for record in read_records(batches):
         found.setdefault(attrgetter(*keys)(record.scene), []).append(record)
     for value, records in found.items():
-        scenes = {record.scene.folder for record in records}
+        scenes = dict.fromkeys(record.scene for record in records)
         if len(scenes) > 1:
             what = f"{', '.join(keys)} = {value}"
-            raise ValueError(f"{what} is not unique: {', '.join(sorted(scenes))}; give one of them")
+            apart = ", ".join(differing(scene.values for scene in scenes))
+            raise ValueError(f"{what} is not unique: scenes differ in {apart}; give one of them")
     return found
 
 
 def _realisations(declared: Declaration, batches: Paths) -> list[Any]:
     if declared.keys:
         return [ensembles(batches, *declared.keys)]
-    scenes = ensembles(batches, "folder")
+    records = read_records(batches)
+    scenes = dict.fromkeys(str(record.scene) for record in records)
     if len(scenes) > 1:
-        raise ValueError(f"several scenes: {', '.join(sorted(scenes))}; give batches of one")
-    return list(scenes.values())
+        raise ValueError(f"several scenes: {'; '.join(scenes)}; give batches of one")
+    return [records]
 
 
 def _tables(declared: Declaration, tables: Paths) -> list[Any]:
@@ -49,7 +51,6 @@ def _tables(declared: Declaration, tables: Paths) -> list[Any]:
 
 
 def _correlations(declared: Declaration, tables: Paths, n_p: int) -> list[Any]:
-    refuse_mixture((file, load(file)) for file in tables)
     return [*_tables(declared, tables), n_p]
 
 

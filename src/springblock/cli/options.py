@@ -1,19 +1,18 @@
 """Options and error handling shared by several commands."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import fields
+from dataclasses import Field
 from functools import partial, wraps
+from itertools import chain
 from pathlib import Path
 from pkgutil import resolve_name
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
 import numpy as np
 
 from springblock.files import check_output
-from springblock.model.blockmap import BlockMap
-from springblock.model.direction import normalised
-from springblock.model.scene import EDGES, Scene, Varied, in_order
+from springblock.model.scene import FIELDS, Scene, expand, scene_of
 
 
 def check_type(path: Path, *suffixes: str) -> None:
@@ -41,49 +40,48 @@ class Output(click.Path):
         return path
 
 
+if TYPE_CHECKING:
+    Type: TypeAlias = click.ParamType[Any, Any]
+else:  # older versions of click have no types of their own
+    Type = click.ParamType
 #: An option whose help shows its default.
 defaulted = partial(click.option, show_default=True)
 PICTURE = Output(".pdf", ".png", ".svg")
 INPUT = click.Path(exists=True, dir_okay=False, path_type=Path)
 
 
-def given(read: Callable[[Any], Any]) -> Callable[..., Any]:
-    """Return a callback that reads the value of an option, with errors in one sentence."""
+class Read(Type):
+    """Value that a function reads from text; its errors are those of the option."""
 
-    def value_of(context: click.Context, parameter: click.Parameter, value: Any) -> Any:
+    def __init__(self, name: str, read: Callable[[str], Any]) -> None:
+        self.name, self.read = name, read
+
+    def convert(self, value: Any, param: Any, ctx: click.Context | None) -> Any:
         try:
-            return None if value is None else read(value)
+            return self.read(value)
         except (TypeError, ValueError) as error:
-            raise click.BadParameter(str(error)) from None
-
-    return value_of
+            self.fail(str(error), param, ctx)
 
 
-def by_name(pairs: tuple[str, ...]) -> dict[str, str]:
-    """Return the texts of NAME=TEXT, each name once."""
-    found: dict[str, str] = {}
-    for pair in pairs:
-        name, _, text = pair.partition("=")
-        if name in found:
-            raise ValueError(f"{name} is given twice, as {found[name]} and {text}; give it once")
-        found[name] = text
-    return found
+def _type_of(each: Field[Any]) -> Type:
+    """Return the type of the option of a field."""
+    if choices := each.metadata.get("choices"):
+        return click.Choice([*filter(None, choices)])
+    if "read" in each.metadata:
+        return Read("text" if each.type is str else "file", each.metadata["read"])
+    return click.INT if each.type is int else click.FLOAT
 
 
-def name_value_pairs(pairs: tuple[str, ...]) -> Varied:
-    """Read constants from their options."""
-    return in_order(by_name(pairs))
+def _types_of(each: Field[Any]) -> Type:
+    """Return the type of the option with several values: A,B,C, or FIRST:LAST:COUNT."""
+    one = click.STRING if each.name == "n_s" else _type_of(each)  # n_s may be a multiple of n_p
 
+    def values(text: str) -> list[Any]:
+        parts = [part.split(":") for part in text.split(",")]
+        every = chain.from_iterable(_spaced(*part) if len(part) == 3 else part for part in parts)
+        return [one.convert(value, None, None) for value in every]
 
-def value_lists(pairs: tuple[str, ...]) -> dict[str, list[Any]]:
-    """Read names with several values each: A,B,C, or FIRST:LAST:COUNT, evenly spaced."""
-    found: dict[str, list[Any]] = {}
-    for name, text in by_name(pairs).items():
-        ends = [part.split(":") for part in text.split(",")]
-        values = [each for end in ends for each in (_spaced(*end) if len(end) == 3 else end)]
-        is_length = name.startswith("n_") and name != "n_s"  # that may be a multiple of n_p
-        found[name] = [int(each) for each in values] if is_length else values
-    return found
+    return Read(f"{one.name},...", values)
 
 
 def _spaced(first: str, last: str, count: str) -> list[str]:
@@ -91,80 +89,62 @@ def _spaced(first: str, last: str, count: str) -> list[str]:
     return [f"{each:.12g}" for each in np.linspace(float(first), float(last), int(count))]
 
 
-#: Options of a surface, without those that a sweep varies.
-SURFACE = [
-    click.option("--n-blocks", type=int, default=0, help="N, blocks along x; not with --mask."),
-    click.option("--n-rows", type=int, default=0, help="Blocks along y; N by default."),
-    click.option("--n-p", type=int, default=0, help="Size of the pillars, blocks."),
-    click.option("--n-s", type=int, default=0, help="Distance between the pillars, blocks."),
-    click.option("--n-p2", type=int, default=0, help="Width of the pawls, blocks."),
-    click.option("--n-s2", type=int, default=0, help="Width of the grooves along x, blocks."),
-    click.option(
-        "--n-p3",
-        type=int,
-        default=0,
-        help="Length of the pawls between grooves of level 3, blocks.",
-    ),
-    click.option("--n-s3", type=int, default=0, help="Width of the grooves of level 3, blocks."),
-    click.option(
-        "--along-3", type=click.Choice("xy"), help="Axis of the grooves of level 3; y by default."
-    ),
-    defaulted("--edges", type=click.Choice(EDGES), default="free", help="Edges of the surface."),
-    click.option(
-        "--mask",
-        type=INPUT,
-        callback=given(BlockMap.mask),
-        help="Blocks in contact: white in an image, not zero in an array (.npy).",
-    ),
-    click.option(
-        "--mu-static",
-        "mu_static_field",
-        type=INPUT,
-        callback=given(BlockMap.coefficients),
-        help="Array (.npy) of static friction coefficients, instead of random ones.",
-    ),
-    click.option(
-        "--mu-dynamic",
-        "mu_dynamic_field",
-        type=INPUT,
-        callback=given(BlockMap.coefficients),
-        help="Array (.npy) of dynamic friction coefficients, instead of random ones.",
-    ),
-]
-_SCENE = [
-    *SURFACE,
-    defaulted(
-        "--direction",
-        default="x",
-        callback=given(normalised),
-        help="Sliding direction: x, y or degrees from x.",
-    ),
-    click.option(
-        "--vary",
-        "varied",
-        multiple=True,
-        callback=given(name_value_pairs),
-        help="Constant that the scene varies: step=1e-8. Can be repeated.",
-    ),
-]
+def pairs(texts: tuple[str, ...]) -> dict[str, str]:
+    """Return the texts of NAME=TEXT, each name once."""
+    found: dict[str, str] = {}
+    for pair in texts:
+        name, _, text = pair.partition("=")
+        if name in found:
+            raise ValueError(f"{name} is given twice, as {found[name]} and {text}; give it once")
+        found[name] = text
+    return found
 
 
-def scene_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of a scene, which the command receives as `scene`."""
+def _fields_as_options(
+    name: str,
+    type_of: Callable[[Field[Any]], Type],
+    made: Callable[[dict[str, Any]], Any],
+    command: Callable[..., Any],
+) -> Callable[..., Any]:
+    """Add an option for each field of a scene; the command receives under `name` what is made."""
+    number = type_of(FIELDS["gamma"])
 
     @wraps(command)
-    def with_scene(**options: Any) -> Any:
-        return command(scene=scene_of(options), **options)
+    def called(constants: dict[str, str], **options: Any) -> Any:
+        fields = {field: options.pop(field) for field in FIELDS}
+        given = {field: value for field, value in fields.items() if value is not None}
+        own = {each: number.convert(text, None, None) for each, text in constants.items()}
+        return command(**{name: made(given | own)}, **options)
 
-    return with_options(_SCENE, with_scene)
+    of_law = click.option(
+        "--constant",
+        "constants",
+        multiple=True,
+        callback=lambda *given: pairs(given[-1]),
+        help="Constant of a law from a file: NAME=VALUE. Can be repeated.",
+    )
+    return with_options([*(_option(each, type_of) for each in FIELDS.values()), of_law], called)
 
 
-def scene_of(options: dict[str, Any], **others: Any) -> Scene:
-    """Remove the options of a scene from `options`, and return the scene."""
-    given = {field.name: options.pop(field.name, None) for field in fields(Scene)} | others
-    if not given["n_blocks"] and given["mask"] is None:
-        raise ValueError("the surface has no size; give --n-blocks or --mask")
-    return Scene(**given | {"along_3": given["along_3"] or ""})
+def _option(each: Field[Any], type_of: Callable[[Field[Any]], Type]) -> Any:
+    unit = "" if each.metadata["unit"] in ("1", "name") else f" ({each.metadata['unit']})"
+    meaning = each.metadata["meaning"]
+    return click.option(
+        f"--{each.name.replace('_', '-')}",
+        type=type_of(each),
+        help=f"{meaning[0].upper()}{meaning[1:]}{unit}.",
+        show_default=str(each.default or "") or False,
+    )
+
+
+def _combined(given: dict[str, Any]) -> list[Scene]:
+    return list(dict.fromkeys(map(scene_of, expand(given))))
+
+
+#: Add the options of a scene, which the command receives as `scene`.
+scene_options = partial(_fields_as_options, "scene", _type_of, scene_of)
+#: Add the same options with several values each, of which it receives all combinations as `scenes`.
+scenes_options = partial(_fields_as_options, "scenes", _types_of, _combined)
 
 
 def with_options(

@@ -11,8 +11,8 @@ from springblock.analysis.correlations import correlations
 from springblock.cli.options import INPUT, Output
 from springblock.io.parquet import read, rows_to_table, write
 from springblock.io.records import read_records
+from springblock.io.rows import scene_of
 from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH, SUMMARY
-from springblock.model.scene import COLUMNS
 from springblock.provenance import of_study
 
 
@@ -21,13 +21,12 @@ from springblock.provenance import of_study
 @click.option("--realisations", type=int, help="Expected number of realisations.")
 @click.option("--output", type=Output(".parquet"), required=True, help="Parquet file.")
 def aggregate(batches: tuple[Path, ...], realisations: int | None, output: Path) -> None:
-    """Collect BATCHES in one table, one row per realisation."""
+    """Collect BATCHES in one table, one row per realisation, in their order."""
     table = read(batches, SUMMARY)
     if realisations not in (None, table.num_rows):
         raise ValueError(f"{table.num_rows} realisations in the batches; expected {realisations}")
-    table = table.sort_by([(name, "ascending") for name in [*COLUMNS, "seed"]])
-    for row in suspects(table.to_pylist(), COLUMNS):
-        which = ", ".join(f"{key} = {row[key]}" for key in [*COLUMNS, "seed"])
+    for row in suspects(table.to_pylist()):
+        which = f"{scene_of(row)}, seed = {row['seed']}"
         click.echo(f"warning: energy residual {row['energy_error']:.1e} at {which}")
     write(table, output, of_study("simulate"))
 

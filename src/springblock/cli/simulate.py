@@ -1,8 +1,6 @@
 """springblock prelude and simulate: a batch of realisations of one scene."""
 
-from collections.abc import Callable
-from dataclasses import fields, replace
-from functools import wraps
+from dataclasses import replace
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -13,78 +11,22 @@ import pyarrow as pa
 from tqdm import tqdm
 from tqdm.contrib.logging import logging_redirect_tqdm
 
-from springblock.cli.options import (
-    INPUT,
-    Output,
-    defaulted,
-    given,
-    name_value_pairs,
-    scene_options,
-    with_options,
-)
+from springblock.cli.options import INPUT, Output, defaulted, scene_options
 from springblock.files import MENDING, whole_file
 from springblock.io.identity import identity, metadata
 from springblock.io.parquet import rows_to_table, write
 from springblock.io.rows import Row
 from springblock.io.schemas import BATCH, SNAPSHOTS
-from springblock.model.defaults import STEP
 from springblock.model.material import LAWS, Material
 from springblock.model.scene import Scene
 from springblock.model.surface import Surface
 from springblock.provenance import made_by, same_code
 from springblock.simulation.fields import Fields, import_xarray
 from springblock.simulation.prelude import Prelude, compute_prelude
-from springblock.simulation.scenes import columns_of, prelude_of, realise
+from springblock.simulation.scenes import columns_of, prelude_of, realise, setup_of
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
 from springblock.solver.integrators import INTEGRATORS
-
-SETUP = [
-    click.option(
-        "--material",
-        multiple=True,
-        callback=given(name_value_pairs),
-        help="Constant in SI units: youngs_modulus=1e7. Can be repeated.",
-    ),
-    click.option(
-        "--law",
-        help=f"Law of friction: {', '.join(LAWS)} or a file FILE.py.",
-    ),
-    defaulted(
-        "--integrator",
-        type=click.Choice(list(INTEGRATORS)),
-        default="leapfrog",
-        help="Time integrator.",
-    ),
-    defaulted("--step", type=float, default=STEP, help="Integration step, s."),
-    click.option(
-        "--sample-interval",
-        type=float,
-        help="Time between samples of the force, s; by default 2e-7, or less with fast sliders.",
-    ),
-]
-
-
-def setup_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of a scene and a setup, which the command receives as such."""
-
-    @wraps(command)
-    def with_setup(*, scene: Scene, **options: Any) -> Any:
-        setup = setup_of(options).vary(dict(scene.varied))
-        return command(scene=scene, setup=setup, **options)
-
-    return scene_options(with_options(SETUP, with_setup))
-
-
-def setup_of(options: dict[str, Any]) -> Setup:
-    """Remove the options of a setup from `options`, and return the setup."""
-    given = {field.name: options.pop(field.name) for field in fields(Setup)}
-    law = options.pop("law")
-    constants = dict(given.pop("material"))
-    if law is not None and constants.setdefault("law", law) != law:
-        raise ValueError(f"the law is given twice, as {constants['law']} and {law}; give it once")
-    return Setup(Material().vary(constants), **given)
-
 
 #: As in the configuration of the study: up to a million seeds, from 1e18 at most.
 _MOST_SEEDS = 10**6
@@ -92,37 +34,27 @@ _SEED = click.IntRange(0, 10**18 + _MOST_SEEDS)
 
 
 @click.command("prelude")
-@setup_options
+@scene_options
 @click.option("--output", type=Output(".npz"), required=True, help="File of type .npz.")
-def prelude(scene: Scene, setup: Setup, output: Path) -> None:
+def prelude(scene: Scene, output: Path) -> None:
     """Compute the loading of a scene up to its first detachment.
 
     All seeds of the scene share it.
     """
     version = made_by("simulate")["code_version"]
-    replace(prelude_of(scene, setup), code_version=version).save(output)
+    replace(prelude_of(scene), code_version=version).save(output)
 
 
 @click.command("simulate")
-@setup_options
+@scene_options
 @defaulted("--first-seed", type=_SEED, default=0, help="First seed of the friction coefficients.")
 @click.option("--last-seed", type=_SEED, help="Last seed (included); by default the first seed.")
-@click.option(
-    "--duration", type=float, help="Simulated time, s; by default until after the force peak."
-)
-@click.option(
-    "--snapshot",
-    "snapshot_times",
-    type=float,
-    multiple=True,
-    help="Time at which displacements are stored, s. Can be repeated.",
-)
 @click.option(
     "--fields",
     "field_file",
     type=Output(".nc"),
     help="NetCDF file (.nc) of displacement, velocity, slip, stress and state of blocks at the "
-    "times of --snapshot. One seed.",
+    "--snapshot-times. One seed.",
 )
 @click.option(
     "--prelude",
@@ -132,11 +64,8 @@ def prelude(scene: Scene, setup: Setup, output: Path) -> None:
 @click.option("--output", type=Output(".parquet"), required=True, help="Parquet file.")
 def simulate_batch(
     scene: Scene,
-    setup: Setup,
     first_seed: int,
     last_seed: int | None,
-    duration: float | None,
-    snapshot_times: tuple[float, ...],
     field_file: Path | None,
     prelude: Path | None,
     output: Path,
@@ -151,21 +80,20 @@ def simulate_batch(
     if len(seeds) > _MOST_SEEDS:
         raise click.BadParameter(f"{len(seeds)} seeds in a batch; choose up to {_MOST_SEEDS}")
     single = len(seeds) == 1
-    _check_fields(field_file, snapshot_times, seeds)
-    own, rows = identity(scene, setup, duration, snapshot_times), list[Row]()
-    metadata(own)  # refuses code that has changed before it runs for long
-    asked: dict[str, Any] = {"duration": duration, "snapshot_times": snapshot_times}
-    how = {"prelude": prelude and _prelude(prelude), "progress": single, **asked}
+    _check_fields(field_file, scene.snapshot_times, seeds)
+    own, rows = identity(scene), list[Row]()
+    metadata(scene)  # refuses code that has changed before it runs for long
+    how: dict[str, Any] = {"prelude": prelude and _prelude(prelude), "progress": single}
     counted = tqdm(seeds, desc=scene.folder, unit="realisation", disable=single)
     with logging_redirect_tqdm(), counted as bar:
         for seed in bar:
-            run = realise(scene, setup, seed, **how)
+            run = realise(scene, seed, **how)
             rows.append(own | columns_of(run, scene, seed))
-    origin = metadata(own)
+    origin = metadata(scene)
     if field_file is not None:
         source = {"source": f"springblock {origin['code_version']}", "seed": str(first_seed)}
         about = source | {"scene": str(scene), "identity": origin["configuration"]}
-        _write_fields(run.fields, field_file, about | setup.constants)
+        _write_fields(run.fields, field_file, about | setup_of(scene).constants)
     write(batch_table(rows), output, origin)
     click.echo(_in_words(rows))
 
@@ -200,7 +128,7 @@ def _check_fields(field_file: Path | None, snapshot_times: tuple[float, ...], se
     if field_file is None:
         return
     if not snapshot_times:
-        raise ValueError(f"--fields {field_file} needs times: give one or more with --snapshot")
+        raise ValueError(f"--fields {field_file} needs times: give them with --snapshot-times")
     if len(seeds) > 1:
         raise ValueError(f"--fields {field_file} takes one seed, not {len(seeds)}")
     import_xarray()  # refused before the run, not after it
@@ -217,7 +145,7 @@ def _write_fields(fields: Fields, file: Path, about: dict[str, Any]) -> None:
 
 def batch_table(rows: list[Row]) -> pa.Table:
     """Return the table of a batch, with snapshots if the runs have any."""
-    kept = SNAPSHOTS if len(rows[0].get("snapshot_times", ())) else []
+    kept = SNAPSHOTS if rows[0]["snapshot_times"] else []
     return rows_to_table(rows, pa.schema([*BATCH, *kept]))
 
 

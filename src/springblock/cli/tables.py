@@ -9,7 +9,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from springblock.analysis.comparison import differences as row_differences
-from springblock.analysis.ensembles import OBSERVABLES, changes, ensembles, telling
+from springblock.analysis.ensembles import OBSERVABLES, changes, ensembles
 from springblock.analysis.means import changes_from_first, differences, in_words, means
 from springblock.analysis.statistics import Interval
 from springblock.cli.options import INPUT, Output, defaulted, print_columns
@@ -18,6 +18,7 @@ from springblock.io.identity import refuse_misplaced
 from springblock.io.parquet import load, origin_of, refuse_mixed_code
 from springblock.io.rows import Row, limits
 from springblock.io.schemas import SUMMARY, said
+from springblock.model.scene import differing
 
 _PATH = click.Path(exists=True, path_type=Path)
 _SHOWN = 5  #: largest number of ensembles listed that only one side has
@@ -98,7 +99,7 @@ def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None)
         raise ValueError(f"{first} and {second} have no ensemble in common")
     shared = [id(part) for each in found for part in (each.first, each.second)]
     for path, members in ((first, one), (second, other)):
-        names = telling(each.names for each in members)
+        names = differing(each.names for each in members)
         alone = [each for each in members if id(each) not in shared]
         for each in alone[:_SHOWN]:
             told = (f"{name} = {value}" for name in names if (value := each.names.get(name)))

@@ -13,7 +13,7 @@ from tqdm import tqdm
 from springblock.analysis.statistics import prominence
 from springblock.continuum.theory import Groups, Square, stripe
 from springblock.io.rows import Row
-from springblock.io.schemas import SETUP, column, numbers, texts
+from springblock.io.schemas import SCENE, column, numbers, texts
 from springblock.model.material import Material
 from springblock.model.surface import Surface
 from springblock.simulation.run import friction
@@ -178,7 +178,7 @@ CELLS = pa.schema(
         *numbers("m", width="width of a pillar or stripe"),
         *numbers("1", gap="gap over width", kappa="k d_c over the drop of stress"),
         *numbers("m", decay="decay length lambda", process_zone="length of the weakening zone"),
-        *SETUP,
+        *map(SCENE.field, Setup().constants),
         column("seed", pa.int64(), "1", "seed of the friction coefficients"),
         *numbers(
             "1",

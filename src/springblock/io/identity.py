@@ -6,46 +6,44 @@ other constants or other code is another file.
 """
 
 import json
-from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import pyarrow as pa
 
 from springblock.files import MENDING
-from springblock.io.schemas import ASKED, BATCH, SNAPSHOTS
-from springblock.model.material import law_units
+from springblock.io.schemas import BATCH, SNAPSHOTS
+from springblock.model.law import LawFile
 from springblock.model.scene import Scene
 from springblock.provenance import digest_of_data, made_by
-from springblock.simulation.setup import Setup
 
 
-def identity(
-    scene: Scene, setup: Setup, duration: float | None, snapshot_times: Sequence[float] = ()
-) -> dict[str, Any]:
-    """Return scene, constants and times of runs, by name, as JSON stores them.
+def identity(scene: Scene) -> dict[str, Any]:
+    """Return the columns of a scene, as JSON stores them.
 
-    The columns `ASKED` are among them. Constants of a law from a file that have the name of a
-    column are a ValueError.
+    Constants of a law from a file that have the name of a column are a ValueError.
     """
-    taken = law_units(setup.constants).keys() & {*BATCH.names, *SNAPSHOTS.names, "runs", "from"}
-    if taken:
-        raise ValueError(f"{setup.material.law}: {min(taken)!r} is a column of tables; rename it")
-    times = dict(zip(ASKED.names, (duration or 0.0, max(snapshot_times, default=0.0)), strict=True))
-    return {**scene.row, **setup.constants, **times, "snapshot_times": list(snapshot_times)}
+    own = scene.law.constants if isinstance(scene.law, LawFile) else {}
+    if taken := own.keys() & {*BATCH.names, *SNAPSHOTS.names, "runs", "from"}:
+        raise ValueError(f"{scene.law}: {min(taken)!r} is a column of tables; rename it")
+    return {"level": scene.level, **dict(scene.items())}
 
 
-def digest_with(identity: Mapping[str, Any], code: str) -> str:
-    """Return the digest of an identity and of the code of its runs; 8 hexadecimal digits."""
-    return digest_of_data([identity, code])[:8]
+def name_of(scene: Scene, code: str) -> str:
+    """Return the name of the folder of its realisations; a digest, of the code too, ends it."""
+    return f"{scene.folder}-{_digest(scene, code)}"
 
 
-def metadata(identity: Mapping[str, Any]) -> dict[str, str]:
+def _digest(scene: Scene, code: str) -> str:
+    return digest_of_data([identity(scene), code])[:8]
+
+
+def metadata(scene: Scene) -> dict[str, str]:
     """Return the metadata of a batch: identity of its runs, code, and the digest of both."""
     origin = made_by("simulate")
     code = origin["code_version"].rpartition("+")[2]
-    own = {"configuration": json.dumps(identity, sort_keys=True)}
-    return origin | own | {"digest": digest_with(identity, code)}
+    own = {"configuration": json.dumps(identity(scene), sort_keys=True)}
+    return origin | own | {"digest": _digest(scene, code)}
 
 
 def refuse_misplaced(file: Path, table: pa.Table) -> None:

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 
 from springblock.files import MENDING, whole_file
 from springblock.io.identity import refuse_misplaced
-from springblock.io.schemas import ASKED, SCENE, SETUP
-from springblock.model.material import expanded, law_units
-from springblock.model.scene import Scene
+from springblock.io.rows import scene_of
+from springblock.io.schemas import SCENE
 from springblock.provenance import study
 
 _NONE = pa.schema([])
@@ -30,7 +29,8 @@ def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
         for field in table.schema
         if pa.types.is_list(field.type) and pa.types.is_floating(field.type.value_type)
     ]
-    how = {"compression": "zstd", "use_dictionary": not split, "use_byte_stream_split": split}
+    plain = [field.name for field in table.schema if not pa.types.is_list(field.type)]
+    how = {"compression": "zstd", "use_dictionary": plain, "use_byte_stream_split": split}
     with whole_file(path) as partial:
         pq.write_table(described, partial, write_page_checksum=True, **how)
 
@@ -110,14 +110,12 @@ def refuse_other_study(file: Path, table: pa.Table) -> None:
 def read(paths: Iterable[Path], schema: pa.Schema, optional: pa.Schema = _NONE) -> pa.Table:
     """Read the columns of `schema` from several files of one study, concatenated.
 
-    Those of `optional` are read where a file has them, and null elsewhere. Files of different
-    constants, times or code, with the same realisation, or under the name of others, are a
-    ValueError.
+    Those of `optional` are read where a file has them, and null elsewhere. Files of different code,
+    with the same realisation, or under the name of others, are a ValueError.
     """
     tables = [(path, load(path, schema.names, optional.names)) for path in paths]
     for path, table in tables:
         refuse_misplaced(path, table)
-    refuse_mixture(tables)
     refuse_mixed_code(tables)
     _refuse_repetition(tables)
     known = pa.schema([*schema, *optional])
@@ -140,45 +138,13 @@ def refuse_mixed_code(tables: Iterable[tuple[Path, pa.Table]]) -> None:
 
 def _refuse_repetition(tables: Iterable[tuple[Path, pa.Table]]) -> None:
     keys = [*SCENE.names, "seed"]
-    known: dict[tuple[Any, ...], Path] = {}
+    known: dict[str, Path] = {}
     for path, table in tables:
         if not set(keys) <= set(table.column_names):
             return
         for row in table.select(keys).to_pylist():
-            key = tuple(row.values())
+            key = repr(row)
             if key in known:
-                scene = Scene.from_row(row)
-                raise ValueError(
-                    f"{known[key]} and {path} both hold seed {row['seed']} of {scene}; {MENDING}"
-                )
+                what = f"seed {row['seed']} of {scene_of(row)}"
+                raise ValueError(f"{known[key]} and {path} both hold {what}; {MENDING}")
             known[key] = path
-
-
-def refuse_mixture(tables: Iterable[tuple[Path, pa.Table]]) -> None:
-    """Refuse tables, given with their files, that were computed with different constants or times.
-
-    Between scenes, times and the constants that a scene varies may differ.
-    """
-    known: dict[tuple[Any, str], tuple[Any, Path]] = {}
-    for path, table in tables:
-        for row in _ensembles(table):
-            scene = tuple(row[name] for name in SCENE.names)
-            own = {pair.partition("=")[0] for pair in row["varied"].split(", ")} | {*ASKED.names}
-            own |= law_units(row).keys() if "law" in own else set()
-            asked = {name: row[name] for name in (*SETUP.names, *ASKED.names) if name in row}
-            for name, value in expanded(asked).items():
-                key = scene if name in own else None, name
-                before, first = known.setdefault(key, (value, path))
-                if value != before:
-                    raise ValueError(
-                        f"{name} is {before!r} in {first} and {value!r} in {path}; "
-                        "give runs of one study only"
-                    )
-
-
-def _ensembles(table: pa.Table) -> list[dict[str, Any]]:
-    """Return scene, constants and times of each ensemble in a table."""
-    if not {*SCENE.names, *SETUP.names} <= set(table.column_names):
-        return []
-    names = [*SCENE.names, *SETUP.names, *(n for n in ASKED.names if n in table.column_names)]
-    return table.group_by(names, use_threads=False).aggregate([]).to_pylist()

@@ -1,16 +1,17 @@
 """Stored runs, read from the files of `springblock simulate`."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from operator import attrgetter
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 import pyarrow as pa
 
 from springblock.io.parquet import read as read_tables
-from springblock.io.schemas import BATCH, SCENE, SETUP, SNAPSHOTS
+from springblock.io.rows import scene_of
+from springblock.io.schemas import BATCH, SCENE, SNAPSHOTS
 from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.simulation.run import Run
@@ -20,18 +21,17 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Record(Run):
-    """A stored run, with its scene, seed and constants."""
+    """A stored run, with its scene and seed."""
 
     scene: Scene
     seed: int
-    constants: Mapping[str, Any] = field(default_factory=lambda: dict(Material().items()))
     snapshot_times: np.ndarray = field(default_factory=lambda: np.empty(0))
     snapshots: np.ndarray = field(default_factory=lambda: np.empty((0, 2, 0, 0)))
 
     @property
     def material(self) -> Material:
         """Material of the run."""
-        return Material(**{name: self.constants[name] for name, _ in Material().items()})
+        return self.scene.material
 
     @property
     def name(self) -> str:
@@ -42,7 +42,7 @@ class Record(Run):
 def read(path: str | Path) -> list[Record]:
     """Read the runs of one file, in ascending order of seeds.
 
-    Each has the fields of `Run`, and also `scene`, `seed`, `constants` and `material`.
+    Each has the fields of `Run`, and also `scene`, `seed` and `material`.
 
     Raises
     ------
@@ -65,7 +65,8 @@ def read_records(paths: Iterable[Path], snapshots: bool = False) -> list[Record]
 
 
 def _record(row: pa.Table) -> Record:
-    scene = Scene.from_row(row.select(SCENE.names).to_pylist()[0])
+    scene = scene_of(row.select(SCENE.names).to_pylist()[0])
+    interval = scene.sample_interval
     fields = {
         name: row[name][0].values.to_numpy(zero_copy_only=False)
         for name in ("force", "detachments", "switches", "t_det", "contact")
@@ -74,21 +75,20 @@ def _record(row: pa.Table) -> Record:
     if scene.mask is not None:
         scene = replace(scene, mask=replace(scene.mask, values=fields["contact"]))
     if "snapshots" in row.column_names and row["snapshots"][0].is_valid:
-        fields |= {name: row[name][0].values.to_numpy() for name in SNAPSHOTS.names}
-        fields["snapshots"] = fields["snapshots"].reshape(-1, 2, *scene.shape)
-    interval = row["sample_interval"][0].as_py()
+        samples = np.rint(np.array(scene.snapshot_times) / interval)
+        stored = row["snapshots"][0].values.to_numpy().reshape(-1, 2, *scene.shape)
+        fields |= {"snapshot_times": interval * samples, "snapshots": stored}
     return Record(
         scene=scene,
         seed=row["seed"][0].as_py(),
-        time=np.arange(len(fields["force"])) * interval,
+        time=interval * np.arange(len(fields["force"]), dtype=float),
         normal_force=row["normal_force"][0].as_py(),
-        constants=row.select(SETUP.names).to_pylist()[0],
         **fields,
     )
 
 
 def by_scene(
-    items: Iterable[T], scene_of: Callable[[T], Scene] = attrgetter("scene")
+    items: Iterable[T], of: Callable[[T], Scene] = attrgetter("scene")
 ) -> dict[Scene, list[T]]:
     """Realisations, or rows of tables, by scene, in order of first appearance.
 
@@ -96,6 +96,6 @@ def by_scene(
     """
     found: dict[Scene, list[T]] = {}
     for item in items:
-        if (scene := scene_of(item)).is_papers:
+        if (scene := of(item)).is_papers:
             found.setdefault(scene, []).append(item)
     return found

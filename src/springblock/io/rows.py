@@ -3,7 +3,20 @@
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+from springblock.model.scene import CONSTANTS, FIELDS, Scene
+
 Row = dict[str, Any]
+
+
+def scene_of(row: Row) -> Scene:
+    """Return the scene of a row of a table, in which fields from files are only names."""
+    return Scene(**{name: row[name] for name in FIELDS})
+
+
+def alike(rows: Iterable[Row]) -> list[Row]:
+    """Return the rows with the constants of the first, which are those of the study."""
+    every = list(rows)
+    return [row for row in every if all(row[name] == every[0][name] for name in CONSTANTS)]
 
 
 def select(rows: Iterable[Row], **wanted: Any) -> list[Row]:

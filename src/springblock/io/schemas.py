@@ -1,11 +1,11 @@
 """Columns of the tables, with their units and meanings."""
 
 from dataclasses import fields
+from typing import Any
 
 import pyarrow as pa
 
-from springblock.model.material import Material
-from springblock.solver.integrators import INTEGRATORS
+from springblock.model.scene import Scene
 
 
 def column(name: str, kind: pa.DataType, unit: str, meaning: str) -> pa.Field:
@@ -40,72 +40,34 @@ def _limits(name: str, unit: str) -> list[pa.Field]:
     return numbers(unit, **meanings)
 
 
-N_BLOCKS = column("n_blocks", pa.int32(), "blocks", "side N of the surface")
-
-#: Columns that identify a scene, by the names of `Scene`.
+#: Types of columns by those of the fields of `Scene`; all others are stored as text.
+_KINDS: dict[Any, pa.DataType] = {
+    int: pa.int32(),
+    float: pa.float64(),
+    tuple[float, ...]: pa.list_(pa.float64()),
+}
+#: Columns of a scene: all that decides the numbers of a run besides the seed.
 SCENE = pa.schema(
     [
         column("level", pa.int8(), "1", "number of levels of the pattern; 0 if flat, -1 for masks"),
-        column("n_p", pa.int32(), "blocks", "side of a pillar; 0 without pillars"),
-        column("n_s", pa.int32(), "blocks", "distance between pillars; 0 without pillars"),
-        column("n_p2", pa.int32(), "blocks", "width of a pawl; 0 without grooves"),
-        column("n_s2", pa.int32(), "blocks", "width of a groove; 0 without grooves"),
-        column(
-            "n_p3",
-            pa.int32(),
-            "blocks",
-            "size of the parts of a pawl between grooves of level 3, or 0",
-        ),
-        column("n_s3", pa.int32(), "blocks", "width of a groove of level 3, or 0"),
-        column("along_3", pa.string(), "x or y", "direction of the grooves of level 3, or ''"),
-        column("varied", pa.string(), "name=value", "constants that differ from the study's"),
-        column("direction", pa.string(), "x, y or degrees", "sliding direction"),
-        column("n_blocks", pa.int32(), "blocks", "side N of the surface along x"),
-        column("n_rows", pa.int32(), "blocks", "side of the surface along y"),
-        column("edges", pa.string(), "free or periodic", "edges of the surface"),
-        column("mask", pa.string(), "name", "file and digest of the contact mask, or ''"),
-        column("mu_static_field", pa.string(), "name", "file and digest of mu_static; '' if drawn"),
-        column("mu_dynamic_field", pa.string(), "name", "the same for mu_dynamic; '' if drawn"),
-    ]
-)
-
-#: Constants of a realisation, see `Setup.constants`.
-SETUP = pa.schema(
-    [
         *(
             column(
                 each.name,
-                pa.string() if "choices" in each.metadata else pa.float64(),
+                _KINDS.get(each.type, pa.string()),
                 each.metadata["unit"],
                 each.metadata["meaning"],
             )
-            for each in fields(Material)
+            for each in fields(Scene)
         ),
-        column("integrator", pa.string(), "1", " or ".join(INTEGRATORS)),
-        column("step", pa.float64(), "s", "integration step h"),
-        column("sample_interval", pa.float64(), "s", "time between samples of the force"),
     ]
 )
 
-#: What was asked of a run besides, see `springblock.io.identity`.
-ASKED = pa.schema(
-    numbers(
-        "s",
-        duration="simulated time; 0: until after the force peak",
-        last_snapshot="time until which a run without duration lasts at least; 0 without one",
-    )
-)
-
-#: Possible axes of figures: columns that are numbers, and the direction.
-AXES = [field.name for field in (*SCENE, *SETUP) if not pa.types.is_string(field.type)]
-AXES = [name for name in AXES if name != "level"] + ["direction"]
+N_BLOCKS = SCENE.field("n_blocks")
 
 #: One row per realisation, with the paper's names of t_* and *_friction.
 SUMMARY = pa.schema(
     [
         *SCENE,
-        *SETUP,
-        *ASKED,
         column("seed", pa.int64(), "1", "seed of the friction coefficients"),
         *numbers(
             "1",
@@ -124,7 +86,6 @@ SUMMARY = pa.schema(
 
 _SIDE = [
     *SCENE,
-    *SETUP,
     column(
         "side",
         pa.string(),
@@ -185,15 +146,12 @@ BATCH = pa.schema(
     ]
 )
 
-#: Further columns of a batch with snapshots.
+#: Further column of a batch with snapshots.
 SNAPSHOTS = pa.schema(
-    [
-        *lists(pa.float64(), "s", snapshot_times="times of the snapshots, if there are any"),
-        *lists(
-            pa.float64(),
-            "m",
-            snapshots="displacements at these times, in turn: the components along x, row by row "
-            "from y = 0, then those along y",
-        ),
-    ]
+    lists(
+        pa.float64(),
+        "m",
+        snapshots="displacements at the snapshot_times, in turn: the components along x, row by "
+        "row from y = 0, then those along y",
+    )
 )

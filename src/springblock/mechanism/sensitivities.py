@@ -22,7 +22,7 @@ from springblock.io.records import Record
 from springblock.io.rows import Row, limits
 from springblock.io.schemas import column, numbers, texts
 from springblock.model.material import Material
-from springblock.model.scene import Scene
+from springblock.model.scene import Scene, differing
 from springblock.simulation.run import friction
 
 SIZE = 6  #: n_p of the pillars whose times are compared, on which friction is lowest in the paper
@@ -74,8 +74,8 @@ class Setting(NamedTuple):
 
 def setting(scene: Scene) -> Setting:
     """Return what differs from the paper's surfaces, apart from the pattern of pillars."""
-    material, paper = Material().vary(dict(scene.varied)), Material()
-    names = tuple(name for name, _ in scene.varied)
+    material, paper = scene.material, Material()
+    names = tuple(differing(dict(each.items()) for each in (paper, material)))
     gaps = scene.n_s2 / _GROOVE if scene.n_p2 else scene.n_s / scene.n_p
     varied, value = "", ""
     if names in _RATIOS:

@@ -6,15 +6,16 @@ import numpy as np
 import pyarrow as pa
 from tqdm import tqdm
 
+from springblock.io.identity import identity
 from springblock.io.rows import Row
-from springblock.io.schemas import SCENE, SETUP, column, numbers
+from springblock.io.schemas import SCENE, column, numbers
 from springblock.mechanism import models
 from springblock.mechanism.elasticity import Layer
 from springblock.mechanism.surfaces import TABLES
 from springblock.model.scene import Scene
 from springblock.model.surface import Surface
 from springblock.simulation.prelude import compute_prelude
-from springblock.simulation.setup import Setup
+from springblock.simulation.scenes import setup_of
 from springblock.simulation.simulate import simulate
 
 SEEDS = 10
@@ -22,7 +23,6 @@ SEEDS = 10
 FRICTION = pa.schema(
     [
         *SCENE,
-        *SETUP,
         column("seed", pa.int64(), "1", "seed of the friction coefficients"),
         *numbers(
             "1",
@@ -47,10 +47,10 @@ def measure(part: str) -> Iterator[Row]:
 
 def friction_rows(surface: Scene) -> Iterator[Row]:
     """Yield one row per seed, with all models on the same coefficients."""
-    setup, contact = Setup().vary(dict(surface.varied)), surface.contact
+    setup, contact = setup_of(surface), surface.contact
     layer, normal_force = Layer(contact, setup.material), setup.material.block_load * contact.size
     load = normal_force / np.count_nonzero(contact)
-    constants = surface.row | setup.constants
+    constants = identity(surface)
     constants["stress_variation"] = models.stress_variation(layer)
     prelude = compute_prelude(contact, setup, surface.direction)
     for seed in tqdm(range(SEEDS), desc=str(surface), unit="seed"):

@@ -1,5 +1,7 @@
 """Default integrator and times of a run, in a module that is quick to import."""
 
+#: Names of the integrators, which `springblock.solver.integrators` describes.
+INTEGRATORS = ("leapfrog", "rk4")
 INTEGRATOR = "leapfrog"
 #: Integration step, s, chosen from results/tables/production.parquet.
 STEP = 2e-8

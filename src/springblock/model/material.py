@@ -4,8 +4,11 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
+import numpy as np
+
+from springblock.model.defaults import SAMPLE_INTERVAL
 from springblock.model.law import LawFile
 from springblock.model.numbers import check_real
 
@@ -15,17 +18,21 @@ DISTRIBUTIONS = ("normal", "lognormal", "weibull", "uniform")
 LAWS = {"coulomb": "", "slip_weakening": "slip_distance", "velocity_weakening": "speed_scale"}
 #: Whether a block that stops regains its strength; without healing, slip weakening is for good.
 HEALING = ("instant", "none")
+#: Least number of samples while a flat surface is loaded: with fewer, static friction, the largest
+#: force among them, is more than about 0.1 % too low (`docs/model.md`).
+_LEAST_SAMPLES = 60
 
 
-def _number(default: float, unit: str, meaning: str, may_vanish: bool = False) -> Any:
+def number(default: float, unit: str, meaning: str, may_vanish: bool = False) -> Any:
     """Declare a constant that is a positive number, or that may also be zero."""
     said = {"unit": unit, "meaning": meaning, "may_vanish": may_vanish}
     return field(default=default, metadata=said)
 
 
-def _word(default: str, meaning: str, choices: tuple[str, ...] = ()) -> Any:
-    """Declare a constant that is one of these words; `as_law` reads that without choices."""
-    return field(default=default, metadata={"unit": "1", "meaning": meaning, "choices": choices})
+def word(default: str, meaning: str, choices: tuple[str, ...] = (), read: Any = str) -> Any:
+    """Declare a text, one of the choices if there are any; `read` converts what a user gives."""
+    said = {"unit": "1", "meaning": meaning, "choices": choices, "read": read}
+    return field(default=default, metadata=said)
 
 
 def as_law(given: Any) -> str | LawFile:
@@ -39,19 +46,6 @@ def as_law(given: Any) -> str | LawFile:
             f"Material.law must be one of {', '.join(LAWS)}, or a file FILE.py, not {given!r}"
         )
     return law
-
-
-def expanded(constants: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the constants of a table, with those of a law from a file under their own names."""
-    law = as_law(constants["law"])
-    own = law.constants if isinstance(law, LawFile) else {}
-    return {**constants, **own, "law": str(law)}
-
-
-def law_units(constants: Mapping[str, Any]) -> dict[str, str]:
-    """Return the units of the constants of a law from a file, by name."""
-    law = as_law(constants["law"])
-    return dict(law.units) if isinstance(law, LawFile) else {}
 
 
 @dataclass(frozen=True)
@@ -72,48 +66,51 @@ class Material:
     """
 
     # Columns of tables and the schema of configurations follow from these declarations.
-    youngs_modulus: float = _number(1e7, "Pa", "Young's modulus E")
-    density: float = _number(1200.0, "kg/m³", "density ρ")
-    pressure: float = _number(5e4, "Pa", "pressure P over the whole nominal area")
-    slider_velocity: float = _number(5e-4, "m/s", "velocity v of the slider")
-    spacing: float = _number(1e-5, "m", "lattice spacing l")
-    thickness: float = _number(1e-5, "m", "thickness l_z of the layer")
-    gamma: float = _number(5e3, "1/s", "damping frequency γ", may_vanish=True)  # 5 ms⁻¹
-    mu_static: float = _number(1.0, "1", "mean of static coefficients", may_vanish=True)
-    mu_static_std: float = _number(
+    youngs_modulus: float = number(1e7, "Pa", "Young's modulus E")
+    density: float = number(1200.0, "kg/m³", "density ρ")
+    pressure: float = number(5e4, "Pa", "pressure P over the whole nominal area")
+    slider_velocity: float = number(5e-4, "m/s", "velocity v of the slider")
+    spacing: float = number(1e-5, "m", "lattice spacing l")
+    thickness: float = number(1e-5, "m", "thickness l_z of the layer")
+    gamma: float = number(5e3, "1/s", "damping frequency γ", may_vanish=True)  # 5 ms⁻¹
+    mu_static: float = number(1.0, "1", "mean of static coefficients", may_vanish=True)
+    mu_static_std: float = number(
         0.1, "1", "standard deviation of static coefficients", may_vanish=True
     )
-    mu_dynamic: float = _number(0.6, "1", "mean of dynamic coefficients", may_vanish=True)
-    mu_dynamic_std: float = _number(
+    mu_dynamic: float = number(0.6, "1", "mean of dynamic coefficients", may_vanish=True)
+    mu_dynamic_std: float = number(
         0.05, "1", "standard deviation of dynamic coefficients", may_vanish=True
     )
-    distribution: str = _word("normal", "distribution of the coefficients", DISTRIBUTIONS)
-    correlation_length: float = _number(
+    distribution: str = word("normal", "distribution of the coefficients", DISTRIBUTIONS)
+    correlation_length: float = number(
         0.0, "m", "ℓ in the normal variates' autocorrelation exp(-r²/ℓ²)", may_vanish=True
     )
-    law: str | LawFile = _word(  # noqa: RUF009 - a field
-        "coulomb", "law of friction; for a file its name, digest, and constants with units as JSON"
+    law: str | LawFile = word(  # noqa: RUF009 - a field
+        "coulomb",
+        "law of friction; for a file its name, digest, and constants with units as JSON",
+        read=as_law,
     )
-    slip_distance: float = _number(
+    slip_distance: float = number(
         0.0, "m", "d_c of slip weakening; 0 for other laws", may_vanish=True
     )
-    speed_scale: float = _number(
+    speed_scale: float = number(
         0.0, "m/s", "v_c of velocity weakening; 0 for other laws", may_vanish=True
     )
-    healing: str = _word(
+    healing: str = word(
         "instant", "instant or none: whether a block that stops regains its strength", HEALING
     )
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "law", as_law(self.law))
+        kind = type(self).__name__
         for each in fields(self):
             name, said, value = each.name, each.metadata, getattr(self, each.name)
             if "may_vanish" in said:
-                number = check_real(f"Material.{name}", value, may_vanish=said["may_vanish"])
-                object.__setattr__(self, name, number)
-            elif said["choices"] and value not in said["choices"]:
-                known = ", ".join(said["choices"])
-                raise ValueError(f"Material.{name} must be one of {known}, not {value!r}")
+                real = check_real(f"{kind}.{name}", value, may_vanish=said["may_vanish"])
+                object.__setattr__(self, name, real)
+            elif (known := said.get("choices")) and value not in known:
+                choices = ", ".join(filter(None, known))
+                raise ValueError(f"{kind}.{name} must be one of {choices}, not {value!r}")
         self._check_derived()
         self._check_law()
 
@@ -155,7 +152,7 @@ class Material:
             value = getattr(self, each.name)
             yield each.name, value.described if isinstance(value, LawFile) else value
 
-    def vary(self, constants: Mapping[str, Any]) -> "Material":
+    def vary(self, constants: Mapping[str, Any]) -> Self:
         """Return a material with other constants, including those of its law."""
         known = [each.name for each in fields(self)]
         own = {name: value for name, value in constants.items() if name in known}
@@ -189,6 +186,21 @@ class Material:
     def block_load(self) -> float:
         """Normal force on one block of a flat surface, N: P l²."""
         return self.pressure * self.spacing**2
+
+    def longest_interval(self) -> float:
+        """Longest time between samples, s, at which static friction is about 0.1 % too low."""
+        with np.errstate(all="ignore"):  # infinite where the slider hardly moves
+            rate = np.float64(self.k_s * self.slider_velocity)
+            loading = float(self.mu_static * self.block_load / rate)
+        return loading / _LEAST_SAMPLES if loading else math.inf  # without thresholds no friction
+
+    def usual_interval(self, step: float) -> float:
+        """Time between samples, s, unless another is given: 2e-7 s, or less with fast sliders."""
+        rest = abs(math.remainder(SAMPLE_INTERVAL, step))
+        if self.longest_interval() >= SAMPLE_INTERVAL and rest < 1e-6 * SAMPLE_INTERVAL:
+            return SAMPLE_INTERVAL
+        longest = min(SAMPLE_INTERVAL, self.longest_interval())
+        return step * max(1, math.floor(longest / step))
 
     @property
     def omega_min(self) -> float:

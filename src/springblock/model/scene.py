@@ -1,8 +1,12 @@
-"""Scenes: surface, sliding direction and constants that a study varies besides the seed."""
+"""Scenes: all that decides the numbers of a run besides the seed, declared field by field.
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
-from itertools import product
+Options of commands, columns of tables, the schema of configurations, names of folders and the
+identity of runs follow from these declarations.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, fields
+from itertools import chain, product
 from pathlib import Path
 from shlex import quote
 from typing import Any
@@ -11,75 +15,82 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.model.blockmap import BlockMap
+from springblock.model.defaults import INTEGRATOR, INTEGRATORS, STEP
 from springblock.model.direction import normalised
 from springblock.model.law import LawFile
-from springblock.model.material import HEALING, LAWS, Material, as_law
+from springblock.model.material import LAWS, Material, number, word
 from springblock.model.pattern import Pattern
 from springblock.model.surface import as_coefficients
 
 LENGTHS = ("n_p", "n_s", "n_p2", "n_s2", "n_p3", "n_s3")  #: lengths of a scene, two per level
-_PATTERN = ("n_blocks", "level", *LENGTHS, "along_3", "varied", "direction")
-#: Fields read from files, with the option of the command line for each.
-MAPS = {"mask": "--mask", "mu_static_field": "--mu-static", "mu_dynamic_field": "--mu-dynamic"}
-#: Columns that identify a scene, in the order by which the rows of a table are sorted.
-COLUMNS = (*_PATTERN, "n_rows", "edges", *MAPS)
-EDGES = ("free", "periodic")
-#: Constants that a scene may vary.
-CONSTANTS = (*dict(Material().items()), "integrator", "step")
-#: Constants that are not numbers.
-TEXTS = ("integrator", *(each.name for each in fields(Material) if "choices" in each.metadata))
+MAPS = ("mask", "mu_static_field", "mu_dynamic_field")  #: fields read from files
 _LONGEST = 200  #: bytes in the name of a folder; file systems take 255
 _SIDE = 6  #: least number of blocks of a side along which a correlation is measured
 
-Varied = tuple[tuple[str, Any], ...]  #: names and values of constants, in the order of `CONSTANTS`
+Row = dict[str, Any]
+
+
+def _blocks(meaning: str) -> Any:
+    return field(default=0, metadata={"unit": "blocks", "meaning": meaning})
+
+
+def _map(meaning: str, kind: str) -> Any:
+    """Declare a field from a file, which the method of `BlockMap` of this name reads."""
+
+    def read(file: str) -> BlockMap:
+        found: BlockMap = getattr(BlockMap, kind)(Path(file))
+        return found
+
+    said = {"unit": "name", "meaning": f"{meaning}; '' without one", "read": read}
+    return field(default=None, metadata=said)
+
+
+def _times(given: Any) -> tuple[float, ...]:
+    """Read times in s from a list, or from a text with commas."""
+    return tuple(map(float, given.split(",") if isinstance(given, str) else given))
 
 
 @dataclass(frozen=True)
-class Scene:
-    """Surface, sliding direction and varied constants; a length of 0 means no such level.
+class Geometry:
+    """Surface and sliding direction; a length of 0 means no such level.
 
     Grooves of level 2 run along x, from edge to edge of a surface without pillars; grooves of level
     3 run along `along_3`, by default y. A mask replaces pattern and N, and coefficients from files
     replace those that are drawn.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If a length lacks its partner or the level above it, the direction or a varied constant is
-        not valid, or fields from files do not fit.
     """
 
-    n_blocks: int = 0  #: N, along x; 0 to take it from the mask
-    n_p: int = 0
-    n_s: int = 0
-    n_p2: int = 0
-    n_s2: int = 0
-    n_p3: int = 0
-    n_s3: int = 0
-    direction: str = "x"  #: "x", "y" or an angle from x in degrees, as text
-    along_3: str = ""  #: direction of the grooves of level 3; "" without them
-    varied: Varied = ()  #: constants that replace those of the study
-    n_rows: int = 0  #: N_y; 0 for a square surface
-    edges: str = "free"  #: "free" or "periodic", along x and y
-    mask: BlockMap | None = None  #: blocks in contact
-    mu_static_field: BlockMap | None = None  #: coefficients from a file, instead of drawn ones
-    mu_dynamic_field: BlockMap | None = None
+    n_blocks: int = _blocks("side N of the surface along x; not needed with a mask")
+    n_p: int = _blocks("side of a pillar; 0 without pillars")
+    n_s: int = _blocks("distance between pillars; 0 without pillars")
+    n_p2: int = _blocks("width of a pawl; 0 without grooves")
+    n_s2: int = _blocks("width of a groove; 0 without grooves")
+    n_p3: int = _blocks("size of the parts of a pawl between grooves of level 3, or 0")
+    n_s3: int = _blocks("width of a groove of level 3, or 0")
+    direction: str = word("x", "sliding direction: x, y or degrees from x", read=normalised)
+    along_3: str = word("", "direction of the grooves of level 3, by default y", ("", "x", "y"))
+    n_rows: int = _blocks("side of the surface along y; by default N")
+    edges: str = word("free", "edges of the surface", ("free", "periodic"))
+    mask: BlockMap | None = _map("contact mask, an image or array", "mask")  # noqa: RUF009 - fields
+    mu_static_field: BlockMap | None = _map("array of static coefficients", "coefficients")  # noqa: RUF009
+    mu_dynamic_field: BlockMap | None = _map("array of dynamic coefficients", "coefficients")  # noqa: RUF009
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "direction", normalised(self.direction))
-        object.__setattr__(self, "varied", in_order(dict(self.varied)))
+        self._set(direction=normalised(self.direction))
+        for name in MAPS:
+            if isinstance(given := getattr(self, name), str):  # from a table
+                self._set(**{name: BlockMap(given) if given else None})
         self._check_levels()
         self._check_maps()
-        if not self.mask:
-            Pattern.flat(self.n_blocks, self.n_rows or None)  # refuses invalid numbers of blocks
-        if self.n_rows == self.n_blocks:
-            object.__setattr__(self, "n_rows", 0)
+
+    def _set(self, **values: Any) -> None:
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
 
     def _check_levels(self) -> None:
-        if self.mask and self.names:
+        if self.mask and (own := [*self.lengths, *(["along_3"] if self.along_3 else [])]):
             raise ValueError(
-                f"mask cannot be combined with {', '.join(self.names)}, since it defines all "
-                "blocks in contact; leave out one of them"
+                f"mask cannot be combined with {', '.join(own)}, since it defines all blocks in "
+                "contact; leave out one of them"
             )
         for size, gap in zip(LENGTHS[::2], LENGTHS[1::2], strict=True):
             for one, other in ((size, gap), (gap, size)):
@@ -89,7 +100,7 @@ class Scene:
             raise ValueError(f"n_p3 = {self.n_p3} needs n_p2")
         if self.along_3 and not self.n_p3:
             raise ValueError(f"along_3 must be left out without n_p3, not {self.along_3!r}")
-        object.__setattr__(self, "along_3", self.along_3 or ("y" if self.n_p3 else ""))
+        self._set(along_3=self.along_3 or ("y" if self.n_p3 else ""))
 
     def _check_maps(self) -> None:
         if self.mask and self.mask.values is not None:
@@ -99,34 +110,15 @@ class Scene:
                     f"n_blocks and n_rows must be those of the mask, {columns} and {rows}, "
                     f"not {self.n_blocks} and {self.n_rows or self.n_blocks}"
                 )
-            object.__setattr__(self, "n_blocks", columns)
-            object.__setattr__(self, "n_rows", rows)
-        for name in ("mu_static", "mu_dynamic"):
-            field = getattr(self, f"{name}_field")
-            for constant in (name, f"{name}_std"):
-                if field and constant in dict(self.varied):
-                    raise ValueError(f"{constant} cannot be varied if {name} is read from {field}")
-            if field and field.values is not None:
-                as_coefficients(str(field), field.values, self.contact)  # refuses invalid ones
-        idle = {"distribution", "correlation_length"} & dict(self.varied).keys()
-        if idle and not self.is_drawn:
-            raise ValueError(f"{min(idle)} cannot be varied if all coefficients are from files")
-
-    @classmethod
-    def from_row(cls, row: Mapping[str, Any]) -> "Scene":
-        """Return the scene of a row of a table, in which fields from files are only names."""
-        named = {key: row[key] for key in COLUMNS if key not in ("level", "varied", *MAPS)}
-        named |= {key: BlockMap(row[key]) for key in MAPS if row[key]}
-        pairs = [pair.split("=") for pair in row["varied"].split(", ") if pair]
-        return cls(**named, varied=tuple((name, value) for name, value in pairs))
-
-    @property
-    def row(self) -> dict[str, Any]:
-        """Its columns for a row of a table."""
-        varied = ", ".join(f"{name}={value}" for name, value in self.varied)
-        maps = {key: str(getattr(self, key) or "") for key in MAPS}
-        own = {"varied": varied, "n_rows": self.shape[0], **maps}
-        return {key: getattr(self, key) for key in COLUMNS} | own
+            self._set(n_blocks=columns, n_rows=rows)
+        elif not (self.mask or self.n_blocks):
+            raise ValueError("the surface has no size; give n_blocks or a mask")
+        self._set(n_rows=self.n_rows or self.n_blocks)
+        if not self.mask:
+            Pattern.flat(self.n_blocks, self.n_rows)  # refuses invalid numbers of blocks
+        for given in (self.mu_static_field, self.mu_dynamic_field):
+            if given and given.values is not None:
+                as_coefficients(str(given), given.values, self.contact)  # refuses invalid ones
 
     @property
     def lengths(self) -> dict[str, int]:
@@ -141,7 +133,7 @@ class Scene:
     @property
     def shape(self) -> tuple[int, int]:
         """Blocks along y and along x."""
-        return self.n_rows or self.n_blocks, self.n_blocks
+        return self.n_rows, self.n_blocks
 
     @property
     def is_periodic(self) -> bool:
@@ -151,7 +143,8 @@ class Scene:
     @property
     def is_papers(self) -> bool:
         """Whether the surface is of the paper's kind: square, with free edges, without files."""
-        return not (self.n_rows or self.is_periodic or any(getattr(self, key) for key in MAPS))
+        is_square = self.n_rows == self.n_blocks
+        return is_square and not (self.is_periodic or any(getattr(self, key) for key in MAPS))
 
     @property
     def is_drawn(self) -> bool:
@@ -172,7 +165,7 @@ class Scene:
         """The pattern of pillars and grooves; a mask has none."""
         if self.mask:
             raise ValueError(f"the mask {self.mask} is not a pattern of pillars and grooves")
-        pattern = Pattern.flat(self.n_blocks, self.n_rows or None)
+        pattern = Pattern.flat(self.n_blocks, self.n_rows)
         if self.n_p:
             pattern = pattern.pillared(self.n_p, self.n_s)
         if self.n_p2:
@@ -188,111 +181,170 @@ class Scene:
             return ()
         return ("x",) if self.n_p2 else ("x", "y")
 
-    @property
-    def names(self) -> dict[str, Any]:
-        """Lengths of its levels and `along_3`, by name."""
-        return self.lengths | ({"along_3": self.along_3} if self.along_3 else {})
+
+@dataclass(frozen=True)
+class Scene(Material, Geometry):
+    """Surface, direction, material, method and times of runs, with every constant resolved.
+
+    `Scene(**row)` of the columns of a table is the scene again; fields from files are then only
+    names.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a length lacks its partner or the level above it, a constant is not valid, or fields from
+        files do not fit.
+    """
+
+    integrator: str = word(INTEGRATOR, "time integrator", INTEGRATORS)
+    step: float = number(STEP, "s", "integration step h")
+    sample_interval: float = number(
+        0.0, "s", "time between samples of the force, by default 2e-7 s or less", may_vanish=True
+    )
+    duration: float = number(
+        0.0, "s", "simulated time; 0: until after the force peak", may_vanish=True
+    )
+    snapshot_times: tuple[float, ...] = field(
+        default=(),
+        metadata={
+            "unit": "s",
+            "meaning": "times at which displacements are stored; a run lasts at least until then",
+            "read": _times,
+        },
+    )
+
+    def __post_init__(self) -> None:
+        Geometry.__post_init__(self)
+        Material.__post_init__(self)
+        interval = self.sample_interval or self.usual_interval(self.step)
+        self._set(sample_interval=interval, snapshot_times=_times(self.snapshot_times))
 
     @property
-    def named(self) -> dict[str, str]:
-        """All properties that identify the scene, by name."""
-        named: dict[str, Any] = {"n_blocks": self.n_blocks}
-        if self.n_rows:
-            named["n_rows"] = self.n_rows
-        if not self.mask:
-            named["level"] = self.level
-        named |= self.names | {key: getattr(self, key) for key in MAPS if getattr(self, key)}
-        if self.is_periodic:
-            named["edges"] = self.edges
-        named |= {**dict(self.varied), "direction": self.direction}
-        return {key: str(value) for key, value in named.items()}
+    def material(self) -> Material:
+        """Constants of the model alone."""
+        return Material(**{each.name: getattr(self, each.name) for each in fields(Material)})
+
+    @property
+    def constants(self) -> Row:
+        """Constants of the model, integrator and step, by name."""
+        return {name: getattr(self, name) for name in CONSTANTS}
+
+    def items(self) -> Iterator[tuple[str, Any]]:
+        """Yield name and value of each column of a table but `level`."""
+        for name, value in super().items():
+            yield name, str(value or "") if name in MAPS else value
+
+    @property
+    def values(self) -> Row:
+        """Value of every field, by name, and of the constants of a law from a file."""
+        own = self.law.constants if isinstance(self.law, LawFile) else {}
+        return dict(self.items()) | {"law": str(self.law)} | own
+
+    @property
+    def given(self) -> Row:
+        """Values that differ from the defaults and do not follow from others, by name."""
+        usual: Row = {each.name: each.default for each in fields(self)}
+        usual |= {"n_rows": self.n_blocks, "sample_interval": self.usual_interval(self.step)}
+        if self.mask:
+            usual |= {"n_blocks": self.n_blocks, "n_rows": self.n_rows}
+        values = ((name, getattr(self, name)) for name in usual)
+        return {name: value for name, value in values if value != usual[name]}
+
+    @property
+    def options(self) -> str:
+        """The scene as options of a command, with the files of its fields and of its law."""
+        told = []
+        for name, value in self.given.items():
+            text = ",".join(map(str, value)) if isinstance(value, tuple) else value
+            file = getattr(value, "file", None)
+            told.append(f"--{name.replace('_', '-')} {quote(str(file or text))}")
+        own = self.law.given if isinstance(self.law, LawFile) else ()
+        return " ".join([*told, *(f"--constant {quote(f'{k}={v}')}" for k, v in own)])
+
+    @property
+    def files(self) -> list[str]:
+        """Files of its fields and of its law."""
+        files = (getattr(getattr(self, name), "file", None) for name in (*MAPS, "law"))
+        return [str(file) for file in files if file]
 
     @property
     def folder(self) -> str:
-        """Name for the folder of its realisations, as pillars-6-6-x; others may have the same."""
+        """Readable part of the name of the folder of its realisations, as pillars-6-6-x."""
         kind = ("flat", "pillars" if self.n_p else "grooves", "grooves", "hierarchy")[self.level]
-        parts = self.mask or kind, *self.names.values(), self.direction
-        varied = (part for pair in self.varied for part in pair)
-        return "-".join(map(str, (*parts, *varied))).encode()[:_LONGEST].decode(errors="ignore")
+        along = [self.along_3] if self.along_3 else []
+        own = chain.from_iterable(each for each in self.given.items() if each[0] in CONSTANTS)
+        parts = self.mask or kind, *self.lengths.values(), *along, self.direction, *own
+        return "-".join(map(str, parts)).encode()[:_LONGEST].decode(errors="ignore")
 
     def __str__(self) -> str:
         """Return its name in captions and titles."""
-        return ", ".join(f"{key} = {value}" for key, value in self.named.items())
+        return ", ".join(f"{name} = {value}" for name, value in self.given.items())
 
-    @property
-    def arguments(self) -> str:
-        """The scene as options of `springblock simulate`, with the files of its fields."""
-        varied, files, options = dict(self.varied), self.files, []
-        for name, value in self.named.items():
-            if name in varied:
-                given = getattr(varied[name], "file", None) or value
-                options.append(f"--vary {quote(f'{name}={given}')}")
-            elif name in files:
-                options.append(f"{MAPS[name]} {quote(str(files[name]))}")
-            elif name != "level" and not (self.mask and name in ("n_blocks", "n_rows")):
-                options.append(f"--{name.replace('_', '-')} {value}")
-        return " ".join(options)
 
-    @property
-    def files(self) -> dict[str, Path]:
-        """Files of its fields and of its law, by column."""
-        maps = {key: getattr(self, key) for key in MAPS}
-        maps["law"] = dict(self.varied).get("law")
-        files = {key: getattr(each, "file", None) for key, each in maps.items()}
-        return {key: file for key, file in files.items() if file}
+FIELDS = {each.name: each for each in fields(Scene)}
+GEOMETRY = tuple(each.name for each in fields(Geometry))
+#: Constants of the model and the method, without the times of samples.
+CONSTANTS = (*(each.name for each in fields(Material)), "integrator", "step")
+#: Those of them that only some built-in laws have.
+OF_LAWS = (*filter(None, LAWS.values()), "healing")
+#: Lengths and constants that are numbers, and the direction: possible axes of figures.
+AXES = [name for name, each in FIELDS.items() if each.type in (int, float) and name != "duration"]
+AXES.append("direction")
+
+
+def differing(every: Iterable[Mapping[str, Any]]) -> list[str]:
+    """Return the names whose values are not the same in all of these, such as `Scene.values`."""
+    rows = list(every)
+    names = dict.fromkeys(name for row in rows for name in row)
+    return [name for name in names if len({row.get(name) for row in rows}) > 1]
+
+
+def listed(given: Any) -> list[Any]:
+    """Return a list of one or more values."""
+    return given if isinstance(given, list) else [given]
+
+
+def expand(lists: Mapping[str, Any]) -> Iterator[Row]:
+    """Yield every combination of values, given one by one or in lists, by name.
+
+    n_s may be a multiple or a part of n_p. Of several laws, each has only its own constants.
+    """
+    names = sorted(lists, key=lambda name: [*FIELDS, name].index(name))
+    known = {name: [_read(name, value) for value in listed(lists[name])] for name in names}
+    laws = known.get("law", [])
+    of_laws = set(OF_LAWS).union(*map(_constants_of, laws)) if len(laws) > 1 else set()
+    for values in product(*known.values()):
+        row = dict(zip(names, values, strict=True))
+        others = of_laws - _constants_of(row["law"]) if of_laws else set()
+        row = {name: value for name, value in row.items() if name not in others}
+        if "n_s" in row:
+            row["n_s"] = gap_of(row["n_s"], row.get("n_p", 0))
+        yield row
+
+
+def _read(name: str, value: Any) -> Any:
+    """Return the value of a field as `Scene` takes it: files by name are read."""
+    read = FIELDS[name].metadata.get("read") if name in FIELDS else None
+    return value if read is None or isinstance(value, BlockMap) else read(value)
+
+
+def _constants_of(law: str | LawFile) -> set[str]:
+    """Return the names of the constants that only this law has."""
+    if isinstance(law, LawFile):
+        return set(law.constants)
+    return {LAWS[law], "healing"} if law == "slip_weakening" else {LAWS[law]}
 
 
 def gap_of(given: int | str, n_p: int) -> int:
-    """Read n_s, possibly as a multiple or a fraction of n_p: "2n_p", "n_p/3"."""
+    """Read n_s, possibly as a multiple or a part of n_p: "2n_p", "n_p/3"."""
     if not (isinstance(given, str) and "n_p" in given):
         return int(given)
     times, parts = given.split("n_p")
     return int(times or 1) * n_p // int(parts.removeprefix("/") or 1)
 
 
-def grid_of(lists: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
-    """Yield every combination of the values of constants, by name.
-
-    Where the law is one of them, constants that it does not use have no effect: those of other
-    built-in laws are zero, and those of other files are left out.
-    """
-    laws = [as_law(law) for law in lists.get("law", ())]
-    own = {str(law): law.constants.keys() for law in laws if isinstance(law, LawFile)}
-    for values in product(*lists.values()):
-        constants = dict(zip(lists, values, strict=True))
-        if "law" in constants:
-            constants["law"] = law = as_law(constants["law"])
-            others = set().union(*own.values()) - own.get(str(law), set())
-            constants = {name: constants[name] for name in constants if name not in others}
-            constants |= {name: 0.0 for other, name in LAWS.items() if name and other != law}
-            if law != "slip_weakening":
-                constants["healing"] = HEALING[0]
-        yield constants
-
-
-def in_order(constants: Mapping[str, Any]) -> Varied:
-    """Sort constants in the order of `CONSTANTS`, and convert numbers given as text.
-
-    Other names come last; they belong to a law from a file, and `Setup.vary` checks them.
-    """
-    for name in constants:
-        if name == "direction":
-            raise ValueError(
-                "direction is not a constant of the material; give it as the option --direction, "
-                "or as the key direction of a group of scenes"
-            )
-        if not name.isidentifier():
-            raise ValueError(f"unknown constant {name!r}; choose from {', '.join(CONSTANTS)}")
-    names = [*CONSTANTS, *sorted(constants.keys() - set(CONSTANTS))]
-    return tuple((name, _value(name, constants[name])) for name in names if name in constants)
-
-
-def _value(name: str, value: Any) -> str | float | LawFile:
-    if name == "law":
-        return as_law(value)
-    if name in TEXTS:
-        return str(value)
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise ValueError(f"{name} must be a number, not {value!r}") from None
+def scene_of(row: Mapping[str, Any]) -> Scene:
+    """Return the scene of values as users give them, with constants of a law from a file."""
+    scene = Scene(**{name: _read(name, value) for name, value in row.items() if name in FIELDS})
+    others = {name: value for name, value in row.items() if name not in FIELDS}
+    return scene.vary(others) if others else scene

@@ -79,7 +79,7 @@ class Declaration:
             return f"--n-p {lengths['n_p']}"
         if self.draws != "pattern":
             return ""
-        return Scene(max(n_blocks, lengths["n_p"] + lengths["n_s"]), **lengths).arguments
+        return Scene(max(n_blocks, lengths["n_p"] + lengths["n_s"]), **lengths).options
 
 
 def having(lengths: Lengths, scenes: Iterable[Scene]) -> list[Scene]:
@@ -107,6 +107,7 @@ def file_name(scene: Scene) -> str:
     if scene.mask:
         return re.sub(r"\W", "_", str(scene.mask))
     kinds = ("flat_surface", "grooves", "grooves"), ("", "pillars", "grooved_pillars")
-    sizes = scene.lengths | {"N": scene.n_blocks} | ({"rows": scene.n_rows} if scene.n_rows else {})
+    rows = {"rows": scene.n_rows} if scene.n_rows != scene.n_blocks else {}
+    sizes = scene.lengths | {"N": scene.n_blocks} | rows
     kind = kinds[scene.n_p > 0][min(scene.level, 2)]
     return "_".join([kind, *(f"{name}_{size}" for name, size in sizes.items())])

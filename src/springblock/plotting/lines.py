@@ -8,11 +8,11 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
 
-from springblock.io.rows import Row
-from springblock.io.schemas import AXES, SETUP, said
+from springblock.io.rows import Row, scene_of
 from springblock.model.direction import degrees
-from springblock.model.material import LAWS, expanded, law_units
-from springblock.model.scene import LENGTHS, TEXTS, Scene
+from springblock.model.law import LawFile
+from springblock.model.material import LAWS, as_law
+from springblock.model.scene import AXES, CONSTANTS, FIELDS, GEOMETRY, LENGTHS, Scene, differing
 
 _DIGEST = re.compile(r"-[0-9a-f]{8}$")  #: at the end of the name of a mask
 
@@ -25,10 +25,12 @@ Lines = dict[str, Places]  #: by name
 def axes(scenes: Iterable[Scene]) -> list[str]:
     """Return the numbers, by name, in which two scenes differ that are otherwise the same."""
     every = list(dict.fromkeys(scenes))
-    names = dict.fromkeys(name for scene in every for name in scene.named)
-    constants = {name for scene in every for name, _ in scene.varied} - set(TEXTS)
-    numbers = [name for name in names if name in constants.union(AXES)]
-    return [over for over in numbers if len({_others(s, over) for s in every}) < len(every)]
+    apart = [name for name in differing(scene.values for scene in every) if _is_axis(name)]
+    return [over for over in apart if len({_others(s, over) for s in every}) < len(every)]
+
+
+def _is_axis(name: str) -> bool:
+    return name in AXES or name not in FIELDS  # of a law from a file
 
 
 def lines(rows: Iterable[Row], over: str) -> Lines:
@@ -37,32 +39,29 @@ def lines(rows: Iterable[Row], over: str) -> Lines:
     A line is named by its mask and by what differs from other lines. Lines with
     one place are left out, unless all are such.
     """
-    rows = [row for row in rows if over in AXES or over in law_units(row)]
-    if not rows:
+    scenes = [(scene_of(row), row) for row in rows]
+    scenes = [each for each in scenes if _is_axis(over) and over in each[0].values]
+    if not scenes:
         raise ValueError(f"unknown axis {over!r}; choose one of {', '.join(AXES)}")
     found: dict[Names, Places] = {}
-    scenes = [Scene.from_row(row) for row in rows]
-    varied = {name for scene in scenes for name, _ in scene.varied}
-    for scene, row in zip(scenes, rows, strict=True):
-        known = {name: str(value) for name, value in expanded(row).items() if name in varied}
-        names = _others(scene, over, known)
-        found.setdefault(names, {}).setdefault(_place(row, over), []).append(row)
+    for scene, row in scenes:
+        line = found.setdefault(_others(scene, over), {})
+        line.setdefault(_place(scene.values[over]), []).append(row)
     places = {place for line in found.values() for place in line}
     if len(places) < 2:
         raise ValueError(f"{over} has the same value in all realisations; choose another axis")
     swept = {names: line for names, line in found.items() if len(line) > 1} or found
     ordered = sorted(swept, key=lambda names: [_by_size(value) for _, value in names])
-    return {
-        name: dict(sorted(swept[names].items()))
-        for names, name in zip(ordered, _named(ordered, units_of(rows)), strict=True)
-    }
+    titles = _named(ordered, units_of(row for _, row in scenes))
+    pairs = zip(ordered, titles, strict=True)
+    return {title: dict(sorted(swept[names].items())) for names, title in pairs}
 
 
 def units_of(rows: Iterable[Row]) -> dict[str, str]:
-    """Return the units of the constants of a setup, and of laws, by name; "" without one."""
-    units = {field.name: said(field)[0] for field in SETUP}
-    for law in {row["law"] for row in rows}:
-        units |= law_units({"law": law})
+    """Return the units of constants, also of laws, by name; "" without one."""
+    units = {name: FIELDS[name].metadata["unit"] for name in (*CONSTANTS, "sample_interval")}
+    for law in map(as_law, {row["law"] for row in rows}):
+        units |= law.units if isinstance(law, LawFile) else {}
     return {name: "" if unit == "1" else unit for name, unit in units.items()}
 
 
@@ -86,8 +85,8 @@ def _named(every: list[Names], units: Mapping[str, str]) -> list[str]:
     return found
 
 
-def _place(row: Row, over: str) -> float:
-    return degrees(row[over]) if over == "direction" else float(expanded(row)[over])
+def _place(value: str | float) -> float:
+    return degrees(value) if isinstance(value, str) else float(value)
 
 
 def _by_size(value: str) -> tuple[float, str]:
@@ -98,21 +97,23 @@ def _by_size(value: str) -> tuple[float, str]:
         return math.inf, value
 
 
-def _others(scene: Scene, over: str, constants: Mapping[str, str] | None = None) -> Names:
-    """Return what else distinguishes a scene; n_s/n_p for n_s where n_p is on the axis.
-
-    `constants` are those of the material that other scenes vary.
-    """
-    own = {"N" if key == "n_blocks" else key: value for key, value in scene.named.items()}
-    varied = {key: own.pop(key, value) for key, value in (constants or {}).items()}
-    named = own | varied  # in one order, whichever constants are the scene's own
+def _others(scene: Scene, over: str) -> Names:
+    """Return what else distinguishes a scene; n_s/n_p for n_s where n_p is on the axis."""
+    values: Row = {"level": scene.level, **scene.values}
+    for name in ("sample_interval", "duration", "snapshot_times", over):
+        values.pop(name, None)
+    if scene.n_rows == scene.n_blocks:
+        del values["n_rows"]
     if over == "n_p" and scene.n_p:
-        named["n_s/n_p"] = f"{scene.n_s / scene.n_p:.3g}"
-        del named["n_s"]
-    named.pop("N" if over == "n_blocks" else over, None)
+        values["n_s/n_p"] = f"{scene.n_s / scene.n_p:.3g}"
+        del values["n_s"]
     if over in LAWS.values():  # at zero they are Coulomb's law
-        named.pop("law", None)
-    return tuple(named.items())
+        del values["law"]
+    return tuple(
+        ("N" if name == "n_blocks" else name, str(value))
+        for name, value in values.items()
+        if value not in (0, "", "free") or name not in GEOMETRY
+    )
 
 
 def in_math(name: str) -> str:

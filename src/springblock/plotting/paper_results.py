@@ -13,6 +13,7 @@ from springblock.analysis import statistics
 from springblock.analysis.statistics import Interval, LoadCurves
 from springblock.io.records import Record
 from springblock.model.numbers import Array
+from springblock.model.scene import CONSTANTS
 from springblock.plotting import curves, maps, style
 from springblock.plotting.style import BLACK, BLUE, FORCE, GREY, MICRO, VERMILION, Look
 from springblock.simulation.run import Run, friction
@@ -213,10 +214,10 @@ def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame", n_p: int) -> 
 
 
 def _equal_gaps(table: "pd.DataFrame") -> "pd.DataFrame":
-    """Return the rows of pillars with n_s = n_p, without varied constants, on the first surface."""
-    found = table[(table["level"] == 1) & (table["n_s"] == table["n_p"]) & (table["varied"] == "")]
-    surface = ["n_blocks", "n_rows", "edges", "direction"]
-    return found[(found[surface] == found[surface].iloc[0]).all(axis=1)]
+    """Return the rows of pillars with n_s = n_p, with surface and constants of the first."""
+    found = table[(table["level"] == 1) & (table["n_s"] == table["n_p"])]
+    same = ["n_blocks", "n_rows", "edges", "direction", *CONSTANTS]
+    return found[(found[same] == found[same].iloc[0]).all(axis=1)]
 
 
 def _draw_fits(ax: Axes, side: str, curve: "pd.DataFrame", length: "pd.Series") -> None:

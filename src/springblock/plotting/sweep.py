@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from springblock.io.rows import Row
-from springblock.model.material import law_units
+from springblock.model.scene import FIELDS
 from springblock.plotting import curves, style
 from springblock.plotting.declaration import span
 from springblock.plotting.figures import SWEEP
@@ -104,6 +104,6 @@ def _draw_line(ax: Axes, observable: str, runs: Places, color: str, look: Look) 
 
 def _axis(over: str, rows: list[Row]) -> str:
     """Return the name and unit of an axis, as in the tables."""
-    shown = over if over in law_units(rows[0]) else in_math(over.replace("n_blocks", "N"))
+    shown = in_math(over.replace("n_blocks", "N")) if over in FIELDS else over
     unit = (units_of(rows) | {"direction": "degrees"}).get(over, "blocks")
     return shown + (f" ({unit})" if unit else "")

@@ -13,7 +13,7 @@ from springblock.accuracy import page as accuracy
 from springblock.analysis.lowest import Lowest, lowest
 from springblock.claims.summary import judged
 from springblock.continuum import page as continuum
-from springblock.io.rows import Row, select
+from springblock.io.rows import Row, scene_of, select
 from springblock.model.defaults import STEP
 from springblock.model.scene import Scene
 
@@ -52,7 +52,7 @@ def lowest_size(realisations: Iterable[Row]) -> Lowest:
     """
     samples: dict[int, list[float]] = {}
     for row in realisations:
-        scene = Scene.from_row(row)
+        scene = scene_of(row)
         even = Scene(scene.n_blocks, n_p=scene.n_p, n_s=scene.n_p)
         if scene.n_p and scene == even and 120 <= scene.n_blocks <= 128:
             samples.setdefault(scene.n_p, []).append(row["static_friction"])

@@ -16,7 +16,7 @@ from springblock.analysis.ensembles import Ensemble, constants, ensembles
 from springblock.analysis.means import UNITS, changes_from_first, in_words, means
 from springblock.claims import STATEMENTS
 from springblock.io.parquet import load, origin_of
-from springblock.io.rows import Row
+from springblock.io.rows import Row, alike
 from springblock.model.material import Material
 from springblock.report import markup, media
 from springblock.report.findings import FILE
@@ -53,7 +53,7 @@ def report_page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = F
     if own and "realisations" not in rows:
         raise ValueError("a report on own scenes needs the table realisations.parquet")
     runs = rows.get("realisations", [])
-    members = ensembles(row for row in runs if own or not row["varied"])
+    members = ensembles(runs if own else alike(runs))
     content = _of_own(members) if own else _of_study(figures, pages, rows.get("claims", []))
     return rendered(
         "own.html" if own else "page.html",

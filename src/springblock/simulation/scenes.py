@@ -3,7 +3,6 @@
 from typing import Any
 
 from springblock.model.asperities import draw_friction
-from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.model.surface import Surface
 from springblock.simulation.motion import SimulationError
@@ -14,36 +13,42 @@ from springblock.simulation.simulate import simulate
 
 #: Columns of a table that are properties of a run.
 _OF_RUN = ["static_friction", "dynamic_friction", "t_max", "t_avg", "t_first", "steps", "force"]
-_OF_RUN += ["detachments", "switches", "normal_force", "snapshot_times"]
+_OF_RUN += ["detachments", "switches", "normal_force"]
 
 
-def surface_of(scene: Scene, seed: int, material: Material) -> Surface:
+def setup_of(scene: Scene) -> Setup:
+    """Return material and numerical parameters of a scene."""
+    return Setup(scene.material, scene.integrator, scene.step, scene.sample_interval)
+
+
+def surface_of(scene: Scene, seed: int) -> Surface:
     """Return the surface of a scene, its coefficients random or from the files of the scene."""
-    drawn = draw_friction(scene.shape, seed, material, scene.is_periodic)
+    drawn = draw_friction(scene.shape, seed, scene.material, scene.is_periodic)
     files = scene.mu_static_field, scene.mu_dynamic_field
     pairs = zip(drawn, files, strict=True)
     mu: Any = [random if file is None else file.values for random, file in pairs]
     return Surface(scene.contact, mu[0], mu[1], scene.is_periodic)
 
 
-def prelude_of(scene: Scene, setup: Setup) -> Prelude:
+def prelude_of(scene: Scene) -> Prelude:
     """Compute the prelude of a scene."""
     known: Any = scene.mu_static_field and scene.mu_static_field.values
-    how = setup, scene.direction, scene.is_periodic
+    how = setup_of(scene), scene.direction, scene.is_periodic
     return compute_prelude(scene.contact, *how, mu_static=known)
 
 
-def realise(scene: Scene, setup: Setup, seed: int, **options: Any) -> Realisation:
-    """Simulate one realisation of a scene; `options` are those of `simulate`."""
+def realise(scene: Scene, seed: int, **options: Any) -> Realisation:
+    """Simulate one realisation of a scene; `options` are further ones of `simulate`."""
+    times = scene.duration or None, scene.snapshot_times
     try:
-        surface = surface_of(scene, seed, setup.material)
-        return simulate(surface, setup, scene.direction, **options)
+        surface = surface_of(scene, seed)
+        return simulate(surface, setup_of(scene), scene.direction, *times, **options)
     except SimulationError as error:
         raise SimulationError(f"{scene}, seed {seed}: {error}") from error
 
 
 def columns_of(run: Realisation, scene: Scene, seed: int) -> dict[str, Any]:
-    """Return the columns of a run in a table, besides those of its identity."""
+    """Return the columns of a run in a table, besides those of its scene."""
     return {
         "seed": seed,
         **{name: getattr(run, name) for name in _OF_RUN},

@@ -1,23 +1,20 @@
 """Setup of a run: material, integrator, step and sample interval."""
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.model.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
+from springblock.model.defaults import INTEGRATOR, STEP
 from springblock.model.law import LawFile
 from springblock.model.material import Material
 from springblock.model.numbers import check_real
 from springblock.solver.integrators import INTEGRATORS, is_stable, limit
 
 PAPER = Material()
-#: Least number of samples while a flat surface is loaded: with fewer, static friction, the largest
-#: force among them, is more than about 0.1 % too low (`docs/model.md`).
-_LEAST_SAMPLES = 60
 #: Largest number of steps times blocks, and the number that takes one core a year (leapfrog).
 _MOST_STEPS, _STEPS_PER_YEAR = 1e16, 7e15
 #: Largest number of samples, the limit of a cell of a table.
@@ -91,12 +88,6 @@ class Setup:
             )
         _ = self.every
 
-    def vary(self, constants: Mapping[str, Any]) -> "Setup":
-        """Return a setup with other constants of the material, another integrator or step."""
-        own = {key: constants[key] for key in ("integrator", "step") if key in constants}
-        others = {name: value for name, value in constants.items() if name not in own}
-        return replace(self, material=self.material.vary(others), **own)
-
     @property
     def constants(self) -> dict[str, Any]:
         """Constants of the material, integrator, step and sample interval, by name."""
@@ -108,17 +99,7 @@ class Setup:
         """Time between samples of the force, s, given or chosen."""
         if self.sample_interval is not None:
             return self.sample_interval
-        rest = abs(math.remainder(SAMPLE_INTERVAL, self.step))
-        if self.longest_interval >= SAMPLE_INTERVAL and rest < 1e-6 * SAMPLE_INTERVAL:
-            return SAMPLE_INTERVAL
-        longest = min(SAMPLE_INTERVAL, self.longest_interval)
-        return self.step * max(1, math.floor(longest / self.step))
-
-    @property
-    def longest_interval(self) -> float:
-        """Longest time between samples, s, at which static friction is about 0.1 % too low."""
-        loading = self.loading_time(np.ones((1, 1), bool), self.material.mu_static)
-        return loading / _LEAST_SAMPLES if loading else math.inf  # without thresholds no friction
+        return self.material.usual_interval(self.step)
 
     @property
     def every(self) -> int:

@@ -2,31 +2,40 @@
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from copy import deepcopy
-from dataclasses import dataclass, fields, replace
-from itertools import chain, product
+from dataclasses import Field, fields
+from functools import cache
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 import jsonschema
 import yaml
 
-from springblock.io.schemas import AXES
 from springblock.model.asperities import check_draws
 from springblock.model.blockmap import BlockMap, Cut
-from springblock.model.law import LawFile
-from springblock.model.material import Material, as_law
-from springblock.model.scene import LENGTHS, TEXTS, Scene, Varied, gap_of, grid_of
+from springblock.model.material import Material
+from springblock.model.scene import (
+    AXES,
+    FIELDS,
+    GEOMETRY,
+    OF_LAWS,
+    Scene,
+    expand,
+    listed,
+    scene_of,
+)
 from springblock.model.surface import Surface
-from springblock.simulation.setup import Setup
-from springblock.solver.integrators import INTEGRATORS
+from springblock.simulation.scenes import setup_of
 
 Configuration = Mapping[str, Any]
 
-#: Keys of the numerical method.
+#: Keys of all scenes, besides those of `material`.
 TIMES = ("integrator", "step", "sample_interval")
+#: Keys that cut a mask from a topography, besides its file.
+_OF_CUT = ("bearing_area", "height", "channel", "detrend")
 #: PyYAML's reader in C is ten times as fast, where it is installed.
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 #: A decimal number, as text.
@@ -45,34 +54,7 @@ _MOST_SCENES = 20_000
 _CORRELATED = 3
 
 
-@dataclass(frozen=True)
-class Planned:
-    """A scene with the seeds and the duration of its realisations."""
-
-    scene: Scene
-    seeds: range
-    duration: float | None  #: s; None to end after the peak, see `simulate`
-    #: s, of displacements stored for all seeds, and of fields for the first
-    snapshot_times: tuple[float, ...] = ()
-
-    def batches(self, size: int) -> list[range]:
-        """Return the seeds of each batch, which ends before a multiple of `size`.
-
-        So all but the last batch of a growing study remain as they are.
-        """
-        first, last = self.seeds[0], self.seeds[-1]
-        return [
-            range(max(first, i * size), min(last + 1, (i + 1) * size))
-            for i in range(first // size, last // size + 1)
-        ]
-
-    def joined(self, other: "Planned") -> "Planned":
-        """Return the larger of two ensembles of the same scene, with the snapshots of both."""
-        if self.duration != other.duration:
-            raise ValueError(f"duration must be the same wherever {self.scene} occurs")
-        times = tuple(sorted({*self.snapshot_times, *other.snapshot_times}))
-        larger = max(self, other, key=lambda each: len(each.seeds))
-        return replace(larger, snapshot_times=times)
+Seeds = dict[Scene, int]  #: numbers of seeds of scenes
 
 
 def refuse_repeated_keys(file: Path) -> None:
@@ -125,17 +107,8 @@ def _continued(node: Any, more: Any) -> Any:
 
 
 def with_constants(schema: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the schema with what `Material` and `INTEGRATORS` declare, as values and as lists."""
-    one: dict[str, Any] = {}
-    for each in fields(Material):
-        said = each.metadata
-        if "may_vanish" in said:
-            bound = "minimum" if said["may_vanish"] else "exclusiveMinimum"
-            one[each.name] = {"type": "number", bound: 0}
-        else:
-            one[each.name] = {"enum": [*said["choices"]]} if said["choices"] else {"type": "string"}
-        one[each.name]["description"] = f"{said['meaning']}; {said['unit']}"
-    one["integrator"] = {"enum": [*INTEGRATORS], "description": "integrator"}
+    """Return the schema with what the fields of `Scene` declare, as values and as lists."""
+    one = {name: _value(each) for name, each in FIELDS.items()}
     many: dict[str, Any] = {
         name: {
             "description": f"value, or list of values: {value['description']}",
@@ -145,12 +118,26 @@ def with_constants(schema: Mapping[str, Any]) -> dict[str, Any]:
         }
         for name, value in one.items()
     }
+    material = [each.name for each in fields(Material)]
     whole = deepcopy(dict(schema))
-    whole["properties"]["integrator"] = one.pop("integrator")
-    whole["$defs"]["grid"]["properties"]["integrator"] = many.pop("integrator")
-    whole["properties"]["material"]["properties"] = one
-    whole["$defs"]["axes"]["properties"] = many
+    grid, axes = whole["$defs"]["grid"], whole["$defs"]["axes"]
+    whole["properties"] |= {name: one[name] for name in TIMES}
+    whole["properties"]["material"]["properties"] = {name: one[name] for name in material}
+    axes["properties"] = {name: many.pop(name) for name in material}
+    grid["properties"] = many | grid["properties"]
     return whole
+
+
+def _value(each: Field[Any]) -> dict[str, Any]:
+    """Return the schema of one value of a field."""
+    said, kind = each.metadata, dict[str, Any]({"type": "string", "minLength": 1})
+    if each.type is int:
+        kind = {"type": "integer", "minimum": 1}
+    elif "may_vanish" in said:
+        kind = {"type": "number", "minimum" if said["may_vanish"] else "exclusiveMinimum": 0}
+    elif said.get("choices"):
+        kind = {"enum": [*filter(None, said["choices"])]}
+    return kind | {"description": f"{said['meaning']}; {said['unit']}"}
 
 
 def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
@@ -158,15 +145,17 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
     error = jsonschema.exceptions.best_match(_Validator(schema).iter_errors(configuration))
     if error is not None:
         raise ValueError(_sentence(error))
-    usual, groups = setup(configuration), ensembles(configuration)
+    with _named("material"):
+        setup_of(scene_of(_usual(configuration)))
+    groups = ensembles(configuration)
     if not any(groups.values()):
         raise ValueError("scenes: no scenes are given; add a group, as config/README.md shows")
     for group, members in groups.items():
-        for ensemble in members:
+        for scene, seeds in members.items():
             with _named(f"scenes.{group}"):
-                _check_ensemble(ensemble, usual)
+                _check_ensemble(scene, seeds)
                 if not is_own(configuration):
-                    _check_for_figures(ensemble, group, usual)
+                    _check_for_figures(scene, seeds, group)
     for name, sweep in configuration["figures"].get("sweeps", {}).items():
         _check_sweep(f"figures.sweeps.{name}", sweep, groups)
 
@@ -180,13 +169,13 @@ def _named(key: str) -> Iterator[None]:
         raise ValueError(f"{key}: {reason}") from reason
 
 
-def _check_sweep(key: str, sweep: Mapping[str, Any], groups: Mapping[str, list[Planned]]) -> None:
+def _check_sweep(key: str, sweep: Mapping[str, Any], groups: Mapping[str, Seeds]) -> None:
     for group in sweep["groups"]:
         if group not in groups:
             known = ", ".join(groups)
             raise ValueError(f"{key}.groups: unknown group {group!r}; choose from {known}")
     members = chain.from_iterable(groups[group] for group in sweep["groups"])
-    own = [name for each in members for name, _ in each.scene.varied if name not in TEXTS]
+    own = [name for scene in members for name in scene.values if name not in FIELDS]
     if sweep["over"] not in [*AXES, *own]:
         known = ", ".join(dict.fromkeys([*AXES, *own]))
         raise ValueError(f"{key}.over: unknown axis {sweep['over']!r}; choose one of {known}")
@@ -197,32 +186,29 @@ def is_own(configuration: Configuration) -> bool:
     return configuration.get("study") == "own"
 
 
-def _check_ensemble(ensemble: Planned, setup: Setup) -> None:
-    scene, seeds, times = ensemble.scene, ensemble.seeds, ensemble.snapshot_times
+def _check_ensemble(scene: Scene, seeds: int) -> None:
     Surface(scene.contact, 1.0, 1.0, scene.is_periodic)  # refuses invalid ones
-    own = setup.vary(dict(scene.varied))
-    advised = replace(own, sample_interval=None).interval
-    if own.interval > (1.0 + 1e-6) * max(own.longest_interval, own.step):
+    setup = setup_of(scene)
+    if scene.sample_interval > (1.0 + 1e-6) * max(scene.longest_interval(), scene.step):
         raise ValueError(
-            f"sample_interval = {own.interval!r} s is too long for slider_velocity = "
-            f"{own.material.slider_velocity!r} m/s, since static friction would be too low; choose "
-            f"at most {advised:.10g} s"
+            f"sample_interval = {scene.sample_interval!r} s is too long for slider_velocity = "
+            f"{scene.slider_velocity!r} m/s, since static friction would be too low; choose at "
+            f"most {scene.usual_interval(scene.step):.10g} s"
         )
     if scene.is_drawn:
-        check_draws(scene.shape, own.material)
-    elif len(seeds) > 1:
-        raise ValueError(f"seeds must be 1, since no coefficients are drawn, not {len(seeds)}")
-    strongest = own.material.mu_static
+        check_draws(scene.shape, scene.material)
+    elif seeds > 1:
+        raise ValueError(f"seeds must be 1, since no coefficients are drawn, not {seeds}")
+    strongest = scene.mu_static
     known: Any = scene.mu_static_field and scene.mu_static_field.values
     if known is not None:
         strongest = float(known[scene.contact].max())
-    for duration in (None, ensemble.duration):  # its prelude and its realisations
-        own.plan(scene.contact, strongest, duration, times)
+    for duration in (None, scene.duration or None):  # its prelude and its realisations
+        setup.plan(scene.contact, strongest, duration, scene.snapshot_times)
 
 
-def _check_for_figures(ensemble: Planned, group: str, setup: Setup) -> None:
+def _check_for_figures(scene: Scene, seeds: int, group: str) -> None:
     """Refuse scenes that the paper's figures and the tables of correlations cannot take."""
-    scene, material = ensemble.scene, setup.vary(dict(ensemble.scene.varied)).material
     if group in _LEVELS and not scene.is_papers:
         raise ValueError(
             "surfaces in this group must be square, with free edges and without files, as in the "
@@ -231,12 +217,12 @@ def _check_for_figures(ensemble: Planned, group: str, setup: Setup) -> None:
     if scene.level != _LEVELS.get(group, scene.level):
         raise ValueError(f"scenes must be of level {_LEVELS[group]}, not {scene.level}")
     # Without scatter one realisation suffices, and no figure needs its c(r).
-    scatters = material.mu_static_std > 0.0 or material.mu_dynamic_std > 0.0
-    is_single = group not in _LEVELS and len(ensemble.seeds) == 1 and not scatters
-    if scene.sides and len(ensemble.seeds) < _CORRELATED and not is_single:
+    scatters = scene.mu_static_std > 0.0 or scene.mu_dynamic_std > 0.0
+    is_single = group not in _LEVELS and seeds == 1 and not scatters
+    if scene.sides and seeds < _CORRELATED and not is_single:
         raise ValueError(
             f"seeds must be at least {_CORRELATED}, for correlations on pillars of {scene.n_p} "
-            f"blocks, not {len(ensemble.seeds)}"
+            f"blocks, not {seeds}"
         )
 
 
@@ -252,128 +238,83 @@ def _sentence(error: jsonschema.ValidationError) -> str:
     return f"{key} is not valid: {error.message}" + (f" ({meaning})" if meaning else "")
 
 
-def ensembles(configuration: Configuration) -> dict[str, list[Planned]]:
-    """Expand each group of scenes, by name.
+def ensembles(configuration: Configuration) -> dict[str, Seeds]:
+    """Return the scenes of each group with their numbers of seeds.
 
-    A scene that occurs in several groups is one ensemble, with the largest number of seeds.
+    A scene that occurs several times has the largest of its numbers.
     """
-    groups: dict[str, list[Planned]] = {}
-    largest: dict[Scene, Planned] = {}
+    groups: dict[str, list[tuple[Scene, int]]] = {}
     for group, grids in configuration["scenes"].items():
         with _named(f"scenes.{group}"):
-            groups[group] = [
-                each for grid in _listed(grids) for each in _expand(configuration, grid)
-            ]
-            for each in groups[group]:
-                known = largest.get(each.scene, each)
-                largest[each.scene] = known.joined(each)
+            given = [_expand(configuration, grid) for grid in listed(grids) if grid]
+            groups[group] = [*chain.from_iterable(given)]
+    largest: Seeds = {}
+    for scene, seeds in chain.from_iterable(groups.values()):
+        largest[scene] = max(seeds, largest.get(scene, 0))
     return {
-        group: list(dict.fromkeys(largest[each.scene] for each in members))
-        for group, members in groups.items()
+        group: {scene: largest[scene] for scene, _ in members} for group, members in groups.items()
     }
 
 
-def setup(configuration: Configuration) -> Setup:
-    """Return the setup of scenes without varied constants."""
-    times = {key: configuration[key] for key in TIMES}
-    with _named("material"):
-        material = Material().vary(configuration["material"])
-    return Setup(material, **times)
-
-
 def for_figures(
-    configuration: Configuration, groups: Mapping[str, list[Planned]]
-) -> dict[str, list[Planned]]:
-    """Return the ensembles for figures, by group: only surfaces of the paper's kind.
+    configuration: Configuration, groups: Mapping[str, Iterable[Scene]]
+) -> dict[str, list[Scene]]:
+    """Return the scenes for figures, by group: only surfaces of the paper's kind.
 
     The group `surfaces`, which has a figure of its own, keeps all. A study of one's own has no
     other group: each surface once in each direction.
     """
     if is_own(configuration):
-        first: dict[Scene, Planned] = {}
-        for each in chain.from_iterable(groups.values()):
-            first.setdefault(replace(each.scene, varied=()), each)
+        first: dict[tuple[Any, ...], Scene] = {}
+        for scene in chain.from_iterable(groups.values()):
+            first.setdefault(tuple(getattr(scene, name) for name in GEOMETRY), scene)
         return {"surfaces": list(first.values())}
     return {
-        group: [each for each in members if each.scene.is_papers or group == "surfaces"]
+        group: [each for each in members if each.is_papers or group == "surfaces"]
         for group, members in groups.items()
     }
 
 
-def _expand(configuration: Configuration, grid: Mapping[str, Any] | None) -> Iterator[Planned]:
-    if not grid:
-        return
-    axes = {**grid, **grid.get("material", {})}  # seeds go with n_p, and snapshots with each scene
-    counts = [len(_listed(axes[key])) for key in axes.keys() - {"seeds", "snapshot_times"}]
-    if (number := math.prod(counts)) > _MOST_SCENES:
+def _usual(configuration: Configuration) -> dict[str, Any]:
+    """Return the values of all scenes that do not replace them."""
+    names = ("n_blocks", *TIMES)
+    return {**configuration["material"], **{name: configuration[name] for name in names}}
+
+
+def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[tuple[Scene, int]]:
+    """Yield the scenes of a grid, with the number of seeds of each."""
+    material, usual = grid.get("material", {}), _usual(configuration)
+    for name in material.keys() & FIELDS.keys() - {each.name for each in fields(Material)}:
+        raise ValueError(f"{name} is not a constant of the material; give it beside `material`")
+    if "law" in material:  # which has its own constants
+        usual = {name: usual[name] for name in usual.keys() & FIELDS.keys() - set(OF_LAWS)}
+    if "mask" in grid or "topography" in grid:  # which then gives N
+        del usual["n_blocks"]
+    own = {name: grid[name] for name in grid.keys() - {"material", "seeds"}}
+    own |= {"snapshot_times": [tuple(grid.get("snapshot_times", ()))]}
+    lists = usual | own | material
+    if (number := math.prod(len(listed(values)) for values in lists.values())) > _MOST_SCENES:
         raise ValueError(f"{number} scenes are too many; choose up to {_MOST_SCENES} in a grid")
-    first, duration = configuration["first_seed"], grid.get("duration")
-    kept = tuple(grid.get("snapshot_times", ()))
-    n_p, n_s, *deeper = (_listed(grid.get(key, 0)) for key in LENGTHS)  # a flat surface has none
-    seeds = grid.get("seeds", 1)
-    counts = seeds if isinstance(seeds, list) else [seeds] * len(n_p)
-    if len(counts) != len(n_p):
-        raise ValueError(f"seeds must have one number per n_p, {len(n_p)}, not {len(counts)}")
-    of_mask = "mask" in grid or "topography" in grid  # which then gives N
-    n_blocks = _listed(grid.get("n_blocks", 0 if of_mask else configuration["n_blocks"]))
-    shapes = product(n_blocks, _listed(grid.get("n_rows", 0)))
-    pillars, varied = zip(n_p, counts, strict=True), list(_varied(configuration, grid))
-    directions = _listed(grid["direction"])
-    maps = {constants: _maps(configuration, grid, constants) for constants in varied}
-    ways = product(shapes, pillars, n_s, product(*deeper), directions, varied)
-    for (n, rows), (size, count), given, rest, direction, constants in ways:
-        lengths = dict(zip(LENGTHS, (size, gap_of(given, size), *rest), strict=True))
-        how = {key: grid[key] for key in ("along_3", "edges") if key in grid}
-        how |= {"direction": direction, "varied": constants, "n_rows": rows}
-        for own in maps[constants]:
-            scene = Scene(n, **lengths, **how, **own)
-            yield Planned(scene, range(first, first + count), duration, kept)
+    sizes, seeds = listed(grid.get("n_p", 0)), grid.get("seeds", 1)
+    counts = seeds if isinstance(seeds, list) else [seeds] * len(sizes)
+    if len(counts) != len(sizes):
+        raise ValueError(f"seeds must have one number per n_p, {len(sizes)}, not {len(counts)}")
+    folder = Path(configuration["results"], "surfaces")
+    mask_of = cache(lambda cut: BlockMap.of_topography(cut, folder))
+    for row in expand(lists):
+        scene = scene_of(_with_mask(row, mask_of))
+        yield scene, counts[sizes.index(scene.n_p)]
 
 
-def _maps(
-    configuration: Configuration, grid: Mapping[str, Any], constants: Varied
-) -> list[dict[str, Any]]:
-    """Return each mask of a grid, if any, with the coefficients from files."""
-    own = {
-        f"{name}_field": BlockMap.coefficients(Path(grid[name]))
-        for name in ("mu_static", "mu_dynamic")
-        if name in grid
-    }
-    masks = _masks(configuration, grid, constants)
-    return [own | {"mask": mask} for mask in masks] or [own]
-
-
-def _masks(
-    configuration: Configuration, grid: Mapping[str, Any], constants: Varied
-) -> Iterator[BlockMap]:
-    of_cut = ("bearing_area", "height", "channel", "detrend")
-    cuts = {key: _listed(grid[key]) for key in of_cut if key in grid}
-    if "mask" in grid:
-        if "topography" in grid or cuts:
-            raise ValueError(f"mask cannot be combined with topography, {', '.join(of_cut)}")
-        yield from (BlockMap.mask(Path(file)) for file in _listed(grid["mask"]))
-    elif "topography" in grid:
-        spacing = dict(constants).get("spacing", setup(configuration).material.spacing)
-        folder, file = Path(configuration["results"], "surfaces"), Path(grid["topography"])
-        for values in product(*cuts.values()):
-            cut = Cut(file, float(spacing), **dict(zip(cuts, values, strict=True)))
-            yield BlockMap.of_topography(cut, folder)
-    elif cuts:
-        raise ValueError(f"{next(iter(cuts))} needs topography")
-
-
-def _listed(given: Any) -> list[Any]:
-    """Return a list of one or more values."""
-    return given if isinstance(given, list) else [given]
-
-
-def _varied(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[Varied]:
-    """Yield each combination of the constants of a grid, without values equal to the study's."""
-    law = as_law(configuration["material"].get("law", "coulomb"))
-    own = law.constants if isinstance(law, LawFile) else {}
-    study = {**dict(Material().items()), **own, **configuration["material"], **configuration}
-    study["law"] = law
-    axes = {key: grid[key] for key in ("integrator", "step") if key in grid}
-    lists = {key: _listed(given) for key, given in {**axes, **grid.get("material", {})}.items()}
-    for constants in grid_of(lists):
-        yield tuple((key, value) for key, value in constants.items() if value != study.get(key))
+def _with_mask(row: dict[str, Any], mask_of: Callable[[Cut], BlockMap]) -> dict[str, Any]:
+    """Return a row with the mask in place of the cut through a topography, if any."""
+    cut = {key: row.pop(key) for key in _OF_CUT if key in row}
+    file = row.pop("topography", None)
+    if "mask" in row and (file or cut):
+        raise ValueError(f"mask cannot be combined with topography, {', '.join(_OF_CUT)}")
+    if file:
+        spacing = float(row.get("spacing", Material.spacing))
+        return row | {"mask": mask_of(Cut(Path(file), spacing, **cut))}
+    if cut:
+        raise ValueError(f"{next(iter(cut))} needs topography")
+    return row

@@ -1,15 +1,14 @@
-"""What the configuration of a study asks for: ensembles, files, options of jobs, figures."""
+"""What the configuration of a study asks for: scenes, files, jobs and figures."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
-from itertools import chain
+from itertools import chain, pairwise
 from pathlib import Path
-from shlex import quote
 from typing import Any
 
 from springblock.accuracy.conventions import SCENES
 from springblock.continuum import PARTS as CELLS
-from springblock.io.identity import digest_with, identity
+from springblock.io.identity import name_of
 from springblock.mechanism.surfaces import TABLES
 from springblock.model.blockmap import Cut
 from springblock.model.scene import Scene
@@ -17,11 +16,9 @@ from springblock.plotting import figures
 from springblock.plotting.declaration import Declaration, file_name, having
 from springblock.plotting.lines import axes
 from springblock.provenance import digest, digest_of_data
-from springblock.simulation.setup import Setup
 from springblock.solver.integrators import INTEGRATORS
 from springblock.study import configuration as read
 from springblock.study import cost
-from springblock.study.configuration import Planned
 from springblock.study.stale import remove_others
 
 #: Figures that show the surfaces which are filmed, by group.
@@ -32,38 +29,35 @@ _CLAIMED += ["scatter", "repetitions", "groove_lengths", "one_level", "square", 
 
 
 class Plan:
-    """Ensembles, files and figures of a checked configuration.
-
-    The folder of an ensemble ends in the digest of all that decides its numbers, code included.
-    """
+    """Scenes, files and figures of a checked configuration."""
 
     def __init__(self, configuration: Mapping[str, Any]) -> None:
         self.configuration = configuration
         self.results = str(Path(configuration["results"]))  # without a slash at the end
         self.own = read.is_own(configuration)
-        self.setup = read.setup(configuration)
         self.groups = read.ensembles(configuration)
-        every = dict.fromkeys(chain.from_iterable(self.groups.values()))
-        self.setups = {each: self.setup.vary(dict(each.scene.varied)) for each in every}
-        self.names = {each: self._name(each, setup) for each, setup in self.setups.items()}
-        self.ensembles = {name: each for each, name in self.names.items()}
+        self.seeds = dict(chain.from_iterable(each.items() for each in self.groups.values()))
+        self.scenes = {name_of(scene, digest("simulate")): scene for scene in self.seeds}
+        self.names = {scene: name for name, scene in self.scenes.items()}
 
-    def _name(self, ensemble: Planned, setup: Setup) -> str:
-        scene = ensemble.scene
-        runs = identity(scene, setup, ensemble.duration, ensemble.snapshot_times)
-        return f"{scene.folder}-{digest_with(runs, digest('simulate'))}"
+    def members(self, groups: Iterable[str]) -> list[Scene]:
+        """Return the scenes of those groups that the study has, each once."""
+        return list(dict.fromkeys(chain.from_iterable(self.groups.get(g, ()) for g in groups)))
 
-    def members(self, groups: Iterable[str]) -> list[Planned]:
-        """Return the ensembles of those groups that the study has, each once."""
-        return list(dict.fromkeys(chain.from_iterable(self.groups.get(g, []) for g in groups)))
+    def batches(self, scenes: Iterable[Scene]) -> list[str]:
+        """Return the files of the realisations of scenes.
 
-    def batches(self, members: Iterable[Planned]) -> list[str]:
-        """Return the files of the realisations of ensembles."""
-        return [
-            f"{self.results}/realisations/{self.names[each]}/{seeds[0]}-{seeds[-1]}.parquet"
-            for each in members
-            for seeds in each.batches(self.configuration["realisations_per_job"])
-        ]
+        A batch ends before a multiple of `realisations_per_job`, so that all but the last of a
+        growing study remain as they are.
+        """
+        size, start = self.configuration["realisations_per_job"], self.configuration["first_seed"]
+        files = []
+        for scene in scenes:
+            end, folder = start + self.seeds[scene], f"{self.results}/realisations"
+            firsts = start, *range(start - start % size + size, end, size), end
+            names = (f"{first}-{after - 1}.parquet" for first, after in pairwise(firsts))
+            files += [f"{folder}/{self.names[scene]}/{name}" for name in names]
+        return files
 
     @cached_property
     def digest(self) -> str:
@@ -71,81 +65,50 @@ class Plan:
         return digest_of_data(self.batches(self.names))
 
     @property
-    def with_sides(self) -> list[Planned]:
-        """Return ensembles of several seeds on pillars that have sides, for correlations."""
+    def with_sides(self) -> list[Scene]:
+        """Return scenes with several seeds on pillars that have sides, for correlations."""
         found = self.members(group for group in self.groups if group != "sensitivities")
-        return [each for each in found if each.scene.sides and len(each.seeds) > 1 and not self.own]
+        return [each for each in found if each.sides and self.seeds[each] > 1 and not self.own]
 
     @property
-    def claimed(self) -> list[Planned]:
-        """Return the ensembles that test the paper's statements."""
+    def claimed(self) -> list[Scene]:
+        """Return the scenes that test the paper's statements."""
         return self.members(_CLAIMED)
 
     @property
     def with_fields(self) -> list[str]:
-        """Return the names of ensembles whose fields are stored."""
-        return [name for each, name in self.names.items() if each.snapshot_times]
+        """Return the names of scenes whose fields are stored."""
+        return [name for name, scene in self.scenes.items() if scene.snapshot_times]
 
     @property
     def cuts(self) -> dict[str, Cut]:
         """Return the cuts of measured surfaces by the name of the mask."""
-        masks = (each.scene.mask for each in self.names)
+        masks = (scene.mask for scene in self.seeds)
         return {mask.name: mask.cut for mask in masks if mask and mask.cut}
 
     @property
     def laws(self) -> list[str]:
         """Return the laws of friction, by name or file."""
-        laws = (setup.material.law for setup in self.setups.values())
-        return sorted({str(getattr(law, "file", law)) for law in laws})
+        return sorted({str(getattr(scene.law, "file", scene.law)) for scene in self.seeds})
 
     @property
     def integrators(self) -> list[str]:
         """Return the integrators of all scenes; errors are measured with each."""
-        used = {setup.integrator for setup in self.setups.values()}
+        used = {scene.integrator for scene in self.seeds}
         return sorted(INTEGRATORS if self.configuration["accuracy"] else used)
-
-    def integrator(self, name: str) -> str:
-        """Return the integrator of an ensemble."""
-        return self.setups[self.ensembles[name]].integrator
 
     @property
     def periodic(self) -> bool:
         """Whether surfaces have periodic edges, as the unit cells of the continuum have."""
-        return "continuum" in self.held or any(each.scene.is_periodic for each in self.names)
-
-    @property
-    def how(self) -> str:
-        """Return numerical method and material of all scenes, as options of a command."""
-        given = self.configuration
-        times = (f"--{key.replace('_', '-')} {given[key]}" for key in read.TIMES)
-        constants = (f"--material {quote(f'{k}={v}')}" for k, v in given["material"].items())
-        return " ".join([*times, *constants])
-
-    def files(self, name: str) -> list[str]:
-        """Return the files of the mask, the coefficients and the law of an ensemble."""
-        of_study = {"law": getattr(self.setup.material.law, "file", None)}
-        files = of_study | self.ensembles[name].scene.files
-        return [str(file) for file in files.values() if file]
-
-    def times(self, name: str) -> str:
-        """Return duration and snapshots as options; without duration a run ends after its peak."""
-        each = self.ensembles[name]
-        duration = [] if each.duration is None else [f"--duration {each.duration}"]
-        return " ".join([*duration, *(f"--snapshot {time}" for time in each.snapshot_times)])
-
-    def options(self, name: str) -> str:
-        """Return the options of a command that simulates an ensemble."""
-        return f"{self.ensembles[name].scene.arguments} {self.how}"
+        return "continuum" in self.held or any(scene.is_periodic for scene in self.seeds)
 
     def memory(self, job: Any) -> int:
-        """Return MB to request for the wildcards of a job; a snapshot takes as much as a run."""
-        each = self.ensembles[job.scene]
-        return cost.memory(each.scene, _runs(job) * (1 + len(each.snapshot_times)))
+        """Return MB to request for the wildcards of a job."""
+        return cost.memory(self.scenes[job.scene], _runs(job))
 
     def minutes(self, job: Any) -> int:
         """Return minutes to request for the wildcards of a job."""
-        each = self.ensembles[job.scene]
-        return cost.minutes(each.scene, self.setups[each], each.duration, _runs(job))
+        return cost.minutes(self.scenes[job.scene], _runs(job))
 
     @property
     def measured(self) -> dict[str, list[str]]:
@@ -193,14 +156,9 @@ class Plan:
         return told if kind == "production" else ""
 
     @cached_property
-    def drawn(self) -> dict[str, list[Planned]]:
-        """Return the ensembles from which figures are drawn, by group."""
+    def drawn(self) -> dict[str, list[Scene]]:
+        """Return the scenes from which figures are drawn, by group."""
         return read.for_figures(self.configuration, self.groups)
-
-    @cached_property
-    def scenes(self) -> dict[str, list[Scene]]:
-        """Return their scenes, by group."""
-        return {group: [each.scene for each in members] for group, members in self.drawn.items()}
 
     @cached_property
     def figures(self) -> dict[str, Declaration]:
@@ -214,13 +172,13 @@ class Plan:
         return {
             name: figure
             for name, figure in figures.FIGURES.items()
-            if figure.is_part_of(self.scenes) and chapters.get(figure.category, True)
+            if figure.is_part_of(self.drawn) and chapters.get(figure.category, True)
         }
 
     @cached_property
     def sweeps(self) -> dict[str, Mapping[str, Any]]:
         """Return sweeps whose groups the study has; an own study has one for each that varies."""
-        over = axes(each.scene for each in self.names) if self.own else []
+        over = axes(self.seeds) if self.own else []
         usual = {axis: {"groups": list(self.groups), "over": axis} for axis in over}
         return {
             f"sweep_{name}": sweep
@@ -229,15 +187,14 @@ class Plan:
         }
 
     @cached_property
-    def films(self) -> dict[str, Planned]:
-        """Return the ensembles that are filmed: on surfaces that figures show, or one's own."""
+    def films(self) -> dict[str, Scene]:
+        """Return the scenes that are filmed: on surfaces that figures show, or one's own."""
         if self.own:  # each surface, in the first of its directions
-            return {file_name(each.scene): each for each in reversed(self.drawn["surfaces"])}
-        by_scene = {each.scene: each for each in self.names}
+            return {file_name(each): each for each in reversed(self.drawn["surfaces"])}
         return {
-            group: by_scene[scene]
+            group: scene
             for group, figure in _FILMED.items()
-            for scene in having(self._lengths(figure), self.scenes.get(group, []))[:1]
+            for scene in having(self._lengths(figure), self.drawn.get(group, []))[:1]
         }
 
     def _lengths(self, figure: str) -> Mapping[str, Any]:
@@ -251,18 +208,17 @@ class Plan:
             return
         lengths, declared = self._lengths(figure), self.figures[figure]
         shown = lengths.items() if declared.groups else ()
-        scenes = chain.from_iterable(self.scenes[group] for group in declared.groups)
+        scenes = chain.from_iterable(self.drawn[group] for group in declared.groups)
         if shown and not any(shown <= scene.lengths.items() for scene in scenes):
             wanted = ", ".join(f"{name} = {length}" for name, length in shown)
             raise ValueError(
                 f"figures.{figure}: no scene of {' or '.join(declared.groups)} has {wanted}"
             )
-        by_scene = {each.scene: each for each in self.names}
-        for table, scene, number in declared.needs(self.scenes, lengths):
+        for table, scene, number in declared.needs(self.drawn, lengths):
             if scene is None:
                 yield f"{self.results}/tables/{table}.parquet"
             else:
-                yield from self.batches([by_scene[scene]])[:number]
+                yield from self.batches([scene])[:number]
 
     def remove_others(self, dryrun: bool) -> None:
         """Remove tables and pictures of another configuration, which are then made again."""
