@@ -13,12 +13,10 @@ from typing import Any
 import pyarrow.parquet as pq
 import yaml
 
-from springblock.study.configuration import with_constants
-
 ROOT = Path(__file__).parents[1]
 PARTS = ("Snakefile", "environment.lock", "workflow", "config", "profiles")
 PAPER = yaml.safe_load((ROOT / "config/config.yaml").read_text())
-SCHEMA = with_constants(yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text()))
+SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
 GROOVES = {"n_p": [5], "n_s": [7], "n_p2": [1], "n_s2": [1]}
 #: Each kind of surface, in seven batches of at most two realisations; null leaves a group out.
 TINY = {

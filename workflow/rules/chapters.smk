@@ -98,8 +98,9 @@ for page, tables in PLANNED.pages.items():
             f"{RESULTS}/logs/{page}.log",
         params:
             code=code(f"{page}.md"),
+            page=page,
         shell:
-            "springblock make {rule} {input:q} --output {output:q} > {log:q} 2>&1"
+            "springblock make {params.page} {input:q} --output {output:q} > {log:q} 2>&1"
 
 
 rule pages:

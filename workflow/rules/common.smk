@@ -15,7 +15,7 @@ from springblock.study import configuration as study
 from springblock.study.plan import Plan
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
-    SCHEMA = study.with_constants(yaml.load(file, study.LOADER))
+    SCHEMA = yaml.load(file, study.LOADER)
 
 # Snakemake has not loaded the defaults for a module with `config`, or in another folder.
 if workflow.modifier.skip_configfile or not Path(DEFAULTS).exists():

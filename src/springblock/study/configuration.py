@@ -4,8 +4,7 @@ import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from copy import deepcopy
-from dataclasses import Field, fields
+from dataclasses import fields
 from functools import cache
 from itertools import chain
 from pathlib import Path
@@ -104,40 +103,6 @@ def _continued(node: Any, more: Any) -> Any:
         inner = {key: _continued(node.get(key), value) for key, value in more.items()}
         return {**node, **inner}
     return [*node, *more] if isinstance(node, list) and isinstance(more, list) else more
-
-
-def with_constants(schema: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the schema with what the fields of `Scene` declare, as values and as lists."""
-    one = {name: _value(each) for name, each in FIELDS.items()}
-    many: dict[str, Any] = {
-        name: {
-            "description": f"value, or list of values: {value['description']}",
-            "if": {"type": "array"},
-            "then": {"minItems": 1, "uniqueItems": True, "items": value},
-            "else": value,
-        }
-        for name, value in one.items()
-    }
-    material = [each.name for each in fields(Material)]
-    whole = deepcopy(dict(schema))
-    grid, axes = whole["$defs"]["grid"], whole["$defs"]["axes"]
-    whole["properties"] |= {name: one[name] for name in TIMES}
-    whole["properties"]["material"]["properties"] = {name: one[name] for name in material}
-    axes["properties"] = {name: many.pop(name) for name in material}
-    grid["properties"] = many | grid["properties"]
-    return whole
-
-
-def _value(each: Field[Any]) -> dict[str, Any]:
-    """Return the schema of one value of a field."""
-    said, kind = each.metadata, dict[str, Any]({"type": "string", "minLength": 1})
-    if each.type is int:
-        kind = {"type": "integer", "minimum": 1}
-    elif "may_vanish" in said:
-        kind = {"type": "number", "minimum" if said["may_vanish"] else "exclusiveMinimum": 0}
-    elif said.get("choices"):
-        kind = {"enum": [*filter(None, said["choices"])]}
-    return kind | {"description": f"{said['meaning']}; {said['unit']}"}
 
 
 def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
