@@ -3,10 +3,9 @@
 Section 3.2 of the paper; all pillars have n_s = n_p.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
-from itertools import product
+from itertools import pairwise, product
 from operator import attrgetter
 
 import numpy as np
@@ -14,20 +13,17 @@ import numpy as np
 from springblock.analysis.correlation import Correlation, side_times
 from springblock.analysis.estimate import AnyOf, Estimate
 from springblock.analysis.lowest import Lowest, lowest
-from springblock.analysis.statistics import pillar_map, pillar_ring, repeatability
+from springblock.analysis.statistics import pillar_map, pillar_ring
 from springblock.claims import ranges, samples, surfaces
-from springblock.claims.rule import Case, Evidence, Finding
-from springblock.claims.samples import Quantity, found_on, mean_over, over_runs, share_over
+from springblock.claims.rule import Case, Evidence, Finding, tests_statement
+from springblock.claims.samples import Quantity, found_on, on_each, over_runs, share_on_each
 from springblock.claims.surfaces import Mask, pillars, pillars_of
 from springblock.io.records import Record
 from springblock.model.material import Material
-from springblock.model.numbers import Array
 from springblock.model.scene import Scene
 from springblock.simulation.run import Run
 
 _OUTER = 2  #: outermost rings: the border and the blocks adjacent to it
-_BROAD = 20  #: n_p from which on the outermost rings enclose most blocks
-_PATCH = 3  #: side of the patch taken as a nucleation point, blocks
 #: Parts of a ring in the paper's order of detachment, for sliding along x.
 _RING = {"corners": "corners", "y": "edges along y", "x": "edges along x"}
 _PRECURSORS = "the share of contact blocks that detach before t_max"
@@ -36,18 +32,6 @@ _RELEVANT = 6  #: n_p from which on the paper finds precursors “numerically re
 _LARGE = 60  #: n_p of the paper's example of very large pillars
 _SCATTER = "mu_static_std"
 _COMPARED = (3, 6, 10, 20, 30)  #: n_p of pillars whose thresholds scatter less and more
-
-_broad = partial(pillars, smallest=_BROAD)
-_large = partial(pillars, smallest=_LARGE)
-
-
-def pillars_alike(evidence: Evidence) -> Iterator[Finding]:
-    name = "the share of the variance of a pillar's mean t_det explained by position (jackknife)"
-    for scene, runs in pillars(evidence.records).items():
-        times = np.array([[part.mean() for part in pillars_of(r.t_det, scene)] for r in runs])
-        if times.shape[1] >= 2:
-            by_place = Estimate.of(repeatability(times), len(times))
-            yield found_on(scene, name, by_place, ranges.ALIKE)
 
 
 def _rings(n_p: int) -> Iterator[tuple[str, dict[str, Mask]]]:
@@ -64,20 +48,26 @@ def _rings(n_p: int) -> Iterator[tuple[str, dict[str, Mask]]]:
             yield name, parts | {"centre": centre}
 
 
+def _in_order(scene: Scene, runs: Sequence[Record], case: Case) -> Iterator[Finding]:
+    """Yield the mean delay of each part of a pillar after the one before, for each ring."""
+    maps = pillar_map(runs, scene.pattern)
+    for ring, parts in _rings(scene.n_p):
+        names = [f"{name} ({ring})" for name in _RING.values()] + ["centre"]
+        times = [maps[:, mask].mean(axis=1) for mask in parts.values()]
+        for (early, before), (late, after) in pairwise(zip(names, times, strict=True)):
+            statistic = f"t_det/t_max of the {late} minus that of the {early}"
+            later = samples.mean(after - before)
+            yield found_on(scene, statistic, later, ranges.POSITIVE, case=case)
+
+
+@tests_statement
 def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     for scene, runs in pillars(evidence.records).items():
-        maps = pillar_map(runs, scene.pattern)
-        for ring, parts in _rings(scene.n_p):
-            names = [f"{name} ({ring})" for name in _RING.values()] + ["centre"]
-            means = [maps[:, mask].mean(axis=1) for mask in parts.values()]
-            times = dict(zip(names, means, strict=True))
-            yield from samples.in_order(scene, times)
+        yield from _in_order(scene, runs, surfaces.case_of(scene))
 
 
-@share_over(
-    pillars, "the share of pillars whose parts detach in this order (mean t_det)", ranges.NEARLY_ALL
-)
-def always_in_order(run: Record) -> float:
+def in_order(run: Record) -> float:
+    """Return the share of pillars whose parts detach in the paper's order, by mean t_det."""
     rings = [list(parts.values()) for _, parts in _rings(run.scene.n_p)]
     ordered = [
         all(np.all(np.diff([pillar[part].mean() for part in parts]) > 0.0) for parts in rings)
@@ -86,19 +76,30 @@ def always_in_order(run: Record) -> float:
     return float(np.mean(ordered))
 
 
+@tests_statement
+def always_in_order(evidence: Evidence) -> Iterator[Finding]:
+    name = "the share of pillars whose parts detach in this order (mean t_det)"
+    every, claimed = pillars(evidence.records), ranges.NEARLY_ALL
+    yield from share_on_each(every, name, in_order, claimed, part="single pillars")
+    for scatter, scenes in _by_scatter(evidence).items():
+        for scene in (s for s in scenes if s.varied and s.n_p >= surfaces.SMALLEST):
+            case = replace(surfaces.case_of(scene), part="mean times")
+            case = replace(case, constant=_SCATTER, constant_value=scatter)
+            yield from _in_order(scene, evidence.records[scene], case)
+
+
 def early_near_border(run: Record) -> float:
     """Return the share of the blocks in the two outermost rings that detach before t_max."""
     early = np.stack(pillars_of(run.t_det < run.t_max, run.scene))
     return float(early[:, surfaces.from_edge(run.scene.n_p) < _OUTER].mean())
 
 
+@tests_statement
 def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
     blocks = "the share of blocks on the border or adjacent to it that detach before t_max"
-    for scene, runs in pillars(evidence.records).items():
-        case = replace(surfaces.case_of(scene), part="single blocks")
-        share = samples.share(over_runs(early_near_border, runs))
-        yield found_on(scene, blocks, share, ranges.NEARLY_ALL, case=case)
-    for scene, runs in pillars(evidence.records).items():
+    every, claimed = pillars(evidence.records), ranges.NEARLY_ALL
+    yield from share_on_each(every, blocks, early_near_border, claimed, part="single blocks")
+    for scene, runs in every.items():
         case = replace(surfaces.case_of(scene), part="mean times")
         *_, (ring, parts) = _rings(scene.n_p)
         last = pillar_map(runs, scene.pattern)[:, parts[_RING["x"]]].mean(axis=1)
@@ -113,6 +114,7 @@ def near_border(run: Record) -> float:
     return samples.share_of(np.broadcast_to(border, early.shape), early)
 
 
+@tests_statement
 def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
     for scene, runs in pillars(evidence.records).items():
         for what, quantity, claimed in (
@@ -123,45 +125,9 @@ def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
             yield found_on(scene, name, samples.share(over_runs(quantity, runs)), claimed)
 
 
-def inside(run: Record) -> Array:
-    """Return t_det inside the outermost rings, (pillars, n_p - 4, n_p - 4) s."""
-    inner = slice(_OUTER, -_OUTER)
-    return np.stack([part[inner, inner] for part in pillars_of(run.t_det, run.scene)])
-
-
-@share_over(
-    _broad,
-    "the share of positions enclosed by the two outermost rings that lie further out than the "
-    f"first {_PATCH} x {_PATCH} patch to detach",
-    (-ranges.INF, 0.25),
-)
-def nucleation_near_edge(run: Record) -> float:
-    return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
-
-
-def centre_last(evidence: Evidence) -> Iterator[Finding]:
-    around = "the area between it and the two outermost rings"
-    name = f"t_det/t_max of the central part minus that of {around}"
-    for scene, runs in pillars(evidence.records, 10).items():
-        times = np.stack([(inside(run) / run.t_max).mean(axis=0) for run in runs])
-        wide = times.shape[-1]
-        middle = surfaces.from_edge(wide) >= wide // 4
-        later = samples.mean(times[:, middle].mean(axis=1) - times[:, ~middle].mean(axis=1))
-        yield found_on(scene, name, later, ranges.POSITIVE)
-
-
-@mean_over(pillars, "t_max - t_avg", ranges.POSITIVE, unit="s")
-def peak_after_average(run: Record) -> float:
-    return run.t_max - run.t_avg
-
-
-@share_over(
-    _large,
-    "the share of blocks enclosed by the two outermost rings that detach after t_max",
-    ranges.NEARLY_ALL,
-)
-def front_after_peak(run: Record) -> float:
-    return float(np.mean(inside(run) > run.t_max))
+@tests_statement
+def peak_after_average(evidence: Evidence) -> Iterator[Finding]:
+    return on_each(pillars(evidence.records), "t_max - t_avg", samples.lag, ranges.POSITIVE, "s")
 
 
 def warning(run: Run) -> float:
@@ -172,6 +138,7 @@ def warning(run: Run) -> float:
     return 1.0 - float(np.nanmin(run.t_det)) / run.t_max
 
 
+@tests_statement
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
     quantities: Mapping[str, Quantity] = {
         "(t_max - t_avg)/t_max": samples.relative_lag,
@@ -193,22 +160,14 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
             yield found_on(scene, statistic, away, claimed, case=case, beside=beside)
 
 
-def _above_flat(evidence: Evidence, quantities: Mapping[str, Quantity]) -> Iterator[Finding]:
-    """Yield the excess of each quantity on pillars over that on the flat surface."""
-    flats = surfaces.flat(evidence.records)
-    for flat, scene in product(flats, pillars(evidence.records, _RELEVANT)):
-        for name, quantity in quantities.items():
-            statistic = f"{name}, minus that on the flat surface"
-            yield samples.compared(evidence, statistic, quantity, scene, flat)
-
-
+@tests_statement
 def many_precursors(evidence: Evidence) -> Iterator[Finding]:
     time = "the time between the first detachment and t_max, over t_max"
-    return _above_flat(evidence, {_PRECURSORS: samples.before_peak, time: warning})
-
-
-def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
-    return _above_flat(evidence, {f"{_WIDTH}, over t_max": samples.width})
+    flats, larger = surfaces.flat(evidence.records), pillars(evidence.records, _RELEVANT)
+    for flat, scene in product(flats, larger):
+        for name, quantity in ((_PRECURSORS, samples.before_peak), (time, warning)):
+            statistic = f"{name}, minus that on the flat surface"
+            yield samples.compared(evidence, statistic, quantity, scene, flat)
 
 
 def _lowest(evidence: Evidence, scenes: Iterable[Scene]) -> Lowest:
@@ -222,6 +181,7 @@ def _of_all_sizes(evidence: Evidence) -> list[Scene]:
     return found if len(found) >= 3 and found[0].n_p < surfaces.SMALLEST else []
 
 
+@tests_statement
 def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
     scenes = _of_all_sizes(evidence)
     # The same runs determine the size of the minimum, which overrates small differences.
@@ -231,18 +191,10 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
         yield samples.compared(evidence, name, samples.static_friction, end, best, case=Case())
 
 
-def sharper_again(evidence: Evidence) -> Iterator[Finding]:
-    scenes = _of_all_sizes(evidence)
-    if scenes:
-        best, largest = _lowest(evidence, scenes[:-1]).place, scenes[-1]
-        name = f"{_WIDTH}, over t_max, at n_p = {largest.n_p} minus that at n_p = {best.n_p}"
-        narrower, case = ranges.NEGATIVE, Case()
-        yield samples.compared(evidence, name, samples.width, largest, best, narrower, case)
-
-
-@share_over(_large, _PRECURSORS, ranges.NEGLIGIBLE)
-def negligible_edges(run: Record) -> float:
-    return samples.before_peak(run)
+@tests_statement
+def negligible_edges(evidence: Evidence) -> Iterator[Finding]:
+    large = pillars(evidence.records, _LARGE)
+    return share_on_each(large, _PRECURSORS, samples.before_peak, ranges.NEGLIGIBLE)
 
 
 def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
@@ -256,6 +208,7 @@ def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
     return {s: scenes for s, scenes in sorted(groups.items()) if len(scenes) == len(_COMPARED)}
 
 
+@tests_statement
 def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     found = _sizes_over_length(evidence)
     yield from sorted(found, key=attrgetter("case.fit"))  # all scatters are one case
@@ -289,41 +242,34 @@ def _over_t_avg(quantity: Quantity) -> Quantity:
     return lambda run: quantity(run) * run.t_max / run.t_avg
 
 
-def _larger_there(
-    evidence: Evidence, name: str, quantity: Quantity, every: bool = False
-) -> Iterator[Finding]:
-    """Yield a quantity where static friction is lowest minus that on other pillars.
+@tests_statement
+def rounder_and_longer(evidence: Evidence) -> Iterator[Finding]:
+    """Compare pillars of lowest static friction with the smallest and the largest.
 
-    The others are the smallest and the largest pillars, or those of `every` size. If several sizes
-    may have the lowest friction, the interval encloses those of all; it has no upper end for these
-    sizes themselves, and where the intervals differ in sign.
+    If several sizes may have the lowest friction, the interval encloses the differences of all; it
+    has no upper end for these sizes themselves, and where the intervals differ in sign.
     """
     scenes = _of_all_sizes(evidence)
     candidates = _lowest(evidence, scenes).alike if scenes else []
     sizes = " or ".join(str(scene.n_p) for scene in candidates)
-    there = f"{name}, at the n_p of lowest static friction ({sizes})"
-    others = scenes if every else scenes[:1] + scenes[-1:]
-    for other in (scene for scene in others if candidates != [scene]):
-        sample = over_runs(quantity, evidence.records[other])
-        there_too = [over_runs(quantity, evidence.records[s]) for s in candidates if s != other]
-        found = [samples.difference(each, sample) for each in there_too]
-        joint = AnyOf.these(*found)
-        if other in candidates or (found[1:] and joint.ci_low <= 0.0 < joint.ci_high):
+    ends = [scene for scene in scenes[:1] + scenes[-1:] if candidates != [scene]]
+    for (name, quantity), other in product(
+        {_WIDTH: samples.width, "the duration of the transition": samples.lasting}.items(), ends
+    ):
+        sample = over_runs(_over_t_avg(quantity), evidence.records[other])
+        there = [
+            samples.difference(over_runs(_over_t_avg(quantity), evidence.records[each]), sample)
+            for each in candidates
+            if each != other
+        ]
+        joint = AnyOf.these(*there)
+        if other in candidates or (there[1:] and joint.ci_low <= 0.0 < joint.ci_high):
             # which candidate it is decides, not the number of realisations
-            joint = AnyOf.these(*found, replace(found[0], ci_high=ranges.INF))
+            joint = AnyOf.these(*there, replace(there[0], ci_high=ranges.INF))
+        statistic = (
+            f"{name}, over t_avg, at the n_p of lowest static friction ({sizes}), minus that at "
+            f"n_p = {other.n_p}"
+        )
+        case = replace(surfaces.case_of(other), part=name.removeprefix("the "))
         source = surfaces.in_files(*candidates, other)
-        statistic = f"{there}, minus that at n_p = {other.n_p}"
-        yield Finding(surfaces.case_of(other), statistic, joint, ranges.POSITIVE, source)
-
-
-def most_precursors(evidence: Evidence) -> Iterator[Finding]:
-    return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
-
-
-def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
-    return _larger_there(evidence, f"{_WIDTH}, over t_avg", _over_t_avg(samples.width))
-
-
-def longest_transition(evidence: Evidence) -> Iterator[Finding]:
-    name = "the duration of the transition, over t_avg"
-    return _larger_there(evidence, name, _over_t_avg(samples.lasting))
+        yield Finding(case, statistic, joint, ranges.POSITIVE, source)

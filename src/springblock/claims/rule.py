@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from springblock.analysis.estimate import Estimate
 from springblock.io.records import Record
-from springblock.io.rows import Row, anchor
+from springblock.io.rows import Row
 from springblock.model.numbers import Array
 from springblock.model.scene import Scene
 
@@ -35,7 +35,6 @@ class Case:
     n_p3: int | None = None
     along_3: str | None = None
     degrees: float | None = None  #: from the grooves to the sliding direction
-    side: str | None = None  #: of pillars: along "x", along "y", or along the "grooves"
     constant: str | None = None  #: of the material
     constant_value: float | None = None
     integrator: str | None = None
@@ -50,7 +49,8 @@ class Evidence:
     records: Records = field(default_factory=dict)
     correlation: RowsByScene = field(default_factory=dict)
     correlation_length: RowsByScene = field(default_factory=dict)
-    #: Tangential force on each block before the first detachment, over its mean; NaN off contact.
+    #: Tangential force on each block of grooved pillars, and of the same without grooves, before
+    #: the first detachment, over its mean; NaN off contact.
     stress: Mapping[Scene, Array] = field(default_factory=dict)
     precision: Sequence[Row] = ()  #: rows of the table `work_precision`: other, small surfaces
 
@@ -80,13 +80,19 @@ class Finding:
 
 
 Test = Callable[[Evidence], Iterable[Finding]]
+TESTS: dict[str, Test] = {}  #: by the name of their statement
+
+
+def tests_statement(test: Test) -> Test:
+    """Register a function of the evidence as the test of the statement that has its name."""
+    TESTS[test.__name__] = test
+    return test
 
 
 @dataclass(frozen=True)
 class Statement:
     """A statement of the paper, and how to test it; `statements.toml` explains its texts."""
 
-    number: int  #: on the page
     id: str
     title: str
     section: str  #: of the paper
@@ -99,16 +105,6 @@ class Statement:
     remark: str
     changed: str
     test: Test
-
-    @property
-    def heading(self) -> str:
-        """Heading of its part of the page."""
-        return f"{self.number}. {self.title}"
-
-    @property
-    def anchor(self) -> str:
-        """Anchor of this part."""
-        return anchor(self.heading)
 
 
 class Verdict(NamedTuple):

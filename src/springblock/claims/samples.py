@@ -2,23 +2,21 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import partial, wraps
-from itertools import pairwise
+from functools import partial
 from operator import attrgetter
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from springblock.analysis.estimate import UNKNOWN, Estimate, Proportion
+from springblock.analysis.estimate import UNKNOWN, Estimate
 from springblock.analysis.statistics import (
     difference_interval,
     mean_interval,
-    proportion_interval,
     samples_interval,
 )
 from springblock.claims import ranges, surfaces
-from springblock.claims.rule import Case, Evidence, Finding, Range, Records, Test
+from springblock.claims.rule import Case, Evidence, Finding, Range
 from springblock.claims.surfaces import Mask
 from springblock.io.records import Record
 from springblock.io.rows import Row
@@ -59,11 +57,6 @@ def mean(sample: ArrayLike) -> Estimate:
 def share(sample: ArrayLike) -> Estimate:
     """Return the mean of a sample of shares, (k,), with an interval between 0 and 1."""
     return replace(mean(sample), bounds=(0.0, 1.0))
-
-
-def proportion(flags: Array) -> Estimate:
-    """Return the proportion of flags, 0 or 1, (k,), that are 1, with its exact interval."""
-    return Proportion.of(proportion_interval(int(np.sum(flags)), len(flags)), len(flags))
 
 
 def difference(first: Array, second: Array) -> Estimate:
@@ -118,28 +111,25 @@ def found_on(
     return Finding(case, statistic, estimate, claimed, surfaces.in_files(scene, *beside), unit)
 
 
-def mean_over(
-    scenes: Callable[[Records], Mapping[Scene, Sequence[T]]],
+def on_each(
+    scenes: Mapping[Scene, Sequence[T]],
     statistic: str,
+    quantity: Callable[[T], float],
     claimed: Range,
     unit: str = "1",
-    estimate: Callable[[Array], Estimate] = mean,
-) -> Callable[[Callable[[T], float]], Test]:
-    """Make a test of a quantity: its mean over the realisations of each scene."""
-
-    def made(quantity: Callable[[T], float]) -> Test:
-        @wraps(quantity)
-        def test(evidence: Evidence) -> Iterator[Finding]:
-            for scene, runs in scenes(evidence.records).items():
-                found = estimate(over_runs(quantity, runs))
-                yield found_on(scene, statistic, found, claimed, unit)
-
-        return test
-
-    return made
+    estimate: Callable[[ArrayLike], Estimate] = mean,
+    part: str | None = None,
+) -> Iterator[Finding]:
+    """Yield the estimate of a quantity of the realisations of each scene."""
+    for scene, runs in scenes.items():
+        found, case = (
+            estimate(over_runs(quantity, runs)),
+            replace(surfaces.case_of(scene), part=part),
+        )
+        yield found_on(scene, statistic, found, claimed, unit, case)
 
 
-share_over = partial(mean_over, estimate=share)  #: its interval stays between 0 and 1
+share_on_each = partial(on_each, estimate=share)  #: its interval stays between 0 and 1
 
 
 def compared(
@@ -165,22 +155,20 @@ def compared(
     return found_on(first, statistic, apart, claimed, case=case, beside=[second])
 
 
-def in_order(scene: Scene, parts: Mapping[str, Array], time: str = "t_max") -> Iterator[Finding]:
-    """Yield the delay of each part after the one before; `parts` are mean t_det/`time`, (k,)."""
-    for (early, before), (late, after) in pairwise(parts.items()):
-        statistic = f"t_det/{time} of the {late} minus that of the {early}"
-        yield found_on(scene, statistic, mean(after - before), ranges.POSITIVE)
-
-
 def before_peak(run: Run) -> float:
     """Return the share of all detaching blocks that detach before t_max."""
     times = run.t_det[np.isfinite(run.t_det)]
     return float(np.mean(times < run.t_max))
 
 
+def lag(run: Run) -> float:
+    """Return t_max - t_avg, s."""
+    return run.t_max - run.t_avg
+
+
 def relative_lag(run: Run) -> float:
     """Return (t_max - t_avg)/t_max."""
-    return (run.t_max - run.t_avg) / run.t_max
+    return lag(run) / run.t_max
 
 
 def neighbours(field: Array, outside: float) -> Array:
@@ -214,22 +202,3 @@ def isolated(run: Run) -> float:
 def share_of(blocks: Mask, among: Mask) -> float:
     """Return the share of the blocks `among` that are also in `blocks`; NaN if there are none."""
     return float(blocks[among].mean()) if among.any() else float("nan")
-
-
-def rates(run: Run, width: float) -> Array:
-    """Count first detachments in a window of `width` s around each sample, (n,)."""
-    samples = max(1, round(width / (run.time[1] - run.time[0])))
-    counts: Array = np.convolve(run.detachments.astype(float), np.ones(samples), mode="same")
-    return counts
-
-
-def first_patch(times: Array, size: int) -> float:
-    """Return the depth of the `size` by `size` patch that detaches first; times (n, n) s.
-
-    The fraction of all patches that lie nearer to the edge, plus half of those equally near: least
-    at the edge, most at the centre, 1/2 on average if all positions are equally likely.
-    """
-    windows = np.lib.stride_tricks.sliding_window_view(times, (size, size)).mean(axis=(-2, -1))
-    depth = surfaces.from_edge(len(windows))
-    here = depth.flat[np.argmin(windows)]
-    return float(np.mean(depth < here) + 0.5 * np.mean(depth == here))

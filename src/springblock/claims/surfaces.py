@@ -9,6 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.claims.rule import Case
+from springblock.mechanism.elasticity import Layer
+from springblock.model.material import Material
+from springblock.model.numbers import Array
 from springblock.model.scene import Scene
 
 T = TypeVar("T")
@@ -52,6 +55,12 @@ def slid_both_ways(table: Mapping[Scene, T], level: int = 2) -> dict[Scene, T]:
     return {s: found for s, found in grooved(table, level).items() if across(s) in table}
 
 
+def with_and_without_grooves(table: Mapping[Scene, T]) -> list[tuple[Scene, Scene]]:
+    """Return grooved pillars of level 2 with the same pillars without grooves."""
+    pairs = ((scene, replace(scene, n_p2=0, n_s2=0)) for scene in grooved(table))
+    return [(scene, plain) for scene, plain in pairs if plain in table]
+
+
 def case_of(scene: Scene) -> Case:
     """Return the case of a surface: the lengths of its pillars and pawls."""
     names = ("n_p", "n_p2", "n_s2", "n_p3", "along_3")
@@ -59,7 +68,7 @@ def case_of(scene: Scene) -> Case:
 
 
 def in_files(*scenes: Scene, folder: str = "realisations") -> str:
-    """Name the folders that hold the realisations, or the preludes, of these scenes."""
+    """Name the folders that hold the realisations of these scenes, or these surfaces."""
     return "; ".join(f"{folder}/{scene.folder}" for scene in scenes)
 
 
@@ -81,31 +90,25 @@ def from_edge(size: int) -> NDArray[np.intp]:
     return np.minimum.outer(from_end, from_end)
 
 
-def edge(contact: Mask) -> Mask:
-    """Return the contact blocks with one of four neighbours out of contact.
+def core(contact: Mask) -> Mask:
+    """Return the contact blocks whose four neighbours are in contact.
 
     The border of the surface is no edge: the layer ends there, and nothing pulls on its blocks.
     """
-    return contact & ~core(contact)
-
-
-def core(contact: Mask) -> Mask:
-    """Return the contact blocks that do not belong to the edge."""
     from scipy.ndimage import binary_erosion  # slow to import
 
     return np.asarray(binary_erosion(contact, border_value=1))
 
 
-def grooved_parts(scene: Scene) -> dict[str, Mask]:
-    """Return masks over a grooved pillar, [y_p, x_p], of its parts in the paper's order."""
-    contact, edges = (pillars_of(each, scene)[0] for each in (scene.contact, edge(scene.contact)))
-    (rows, columns), size = np.indices(contact.shape), scene.n_p
-    transverse = contact & ((columns == 0) | (columns == size - 1))
-    external = contact & ~transverse & ((rows == 0) | (rows == size - 1))
-    internal = edges & ~transverse & ~external
-    return {
-        "transverse sides": transverse,
-        "external longitudinal sides": external,
-        "sides along the grooves": internal,
-        "inside of the pawls": contact & ~edges,
-    }
+def elastic_forces(scene: Scene, material: Material) -> Array:
+    """Return the tangential force on each block before the first detachment, (2, N_y, N_x).
+
+    The layer is then in static equilibrium under the pull of the slider; forces follow from its
+    linear elasticity and do not depend on the thresholds. Components along the sliding direction, x
+    or y, and across it, over the mean of the modulus; NaN off contact.
+    """
+    contact = scene.contact if scene.direction == "x" else scene.contact.T
+    forces = np.full((2, *contact.shape), np.nan)
+    forces[:, contact] = Layer(contact, material).pull.reshape(2, -1)
+    forces /= np.nanmean(np.hypot(*forces))
+    return forces if scene.direction == "x" else forces.transpose(0, 2, 1)

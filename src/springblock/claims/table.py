@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import asdict
+from itertools import chain
 
 import numpy as np
 import pyarrow as pa
@@ -16,7 +17,7 @@ from springblock.claims.rule import (
     Statement,
     verdict,
 )
-from springblock.claims.stress import elastic_forces
+from springblock.claims.surfaces import elastic_forces, with_and_without_grooves
 from springblock.io.records import Record, by_scene
 from springblock.io.rows import Row
 from springblock.io.schemas import column, numbers, texts
@@ -33,7 +34,6 @@ CASE = [
         column("n_p3", pa.int32(), "blocks", "size of the parts of a pawl"),
         column("along_3", pa.string(), "x or y", "direction of the grooves of level 3"),
         column("degrees", pa.float64(), "°", "angle from the grooves to the sliding direction"),
-        column("side", pa.string(), "1", "sides of pillars: along x or y, or the grooves"),
         column("constant", pa.string(), "1", "constant of the material"),
         column("constant_value", pa.float64(), "SI", "its value"),
         column("integrator", pa.string(), "1", "integrator"),
@@ -122,9 +122,6 @@ def gathered(records: Iterable[Record], **tables: Iterable[Row]) -> Evidence:
     for name in ("correlation", "correlation_length"):
         rows_of = by_scene(tables[name], Scene.from_row)
         by_name[name] = {scene: rows for scene, rows in rows_of.items() if scene in tested}
-    stress = {
-        scene: elastic_forces(scene, runs[0].material)
-        for scene, runs in found.items()
-        if scene.level and not scene.varied and scene.direction in ("x", "y")
-    }
+    compared = chain.from_iterable(with_and_without_grooves(found))
+    stress = {scene: elastic_forces(scene, found[scene][0].material) for scene in compared}
     return Evidence(tested, **by_name, stress=stress, precision=list(tables["precision"]))
