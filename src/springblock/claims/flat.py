@@ -6,10 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.accuracy.conventions import PAPER_STEP, PLAIN, ensemble_error
-from springblock.claims import ranges, samples, surfaces
-from springblock.claims.ranges import INF, within
-from springblock.claims.rule import Case, Evidence, Finding, tests_statement
-from springblock.claims.samples import found_on, on_each, over_runs, share_of, share_on_each
+from springblock.claims import rule, samples, surfaces
+from springblock.claims.rule import INF, Case, Evidence, Finding, tests_statement
+from springblock.claims.samples import on_each, over_runs, share_of, share_on_each
 from springblock.claims.surfaces import Mask
 from springblock.io.records import Record
 from springblock.io.rows import select
@@ -25,41 +24,37 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
     scatter = select(evidence.precision, comparison="scatter")
     errors = {(row["scene"], row["quantity"]): ensemble_error(row) for row in scatter}
     paired = select(evidence.precision, comparison="paired", step=PAPER_STEP)
-    source = f"tables/work_precision: comparison = paired, step = {PAPER_STEP:.0e}"
     for integrator in ("leapfrog", "rk4", PLAIN):
         for row in select(paired, integrator=integrator):
             scene, quantity = row["scene"], row["quantity"]
-            if (scene, quantity) in errors:
-                name = quantity.replace("static_friction", "static friction")
-                statistic = (
-                    f"the relative bias of {name} at h = {PAPER_STEP:.0e} s on the {scene} surface"
-                )
-                bias, claimed = samples.interval(row, "error"), within(errors[scene, quantity])
-                yield Finding(Case(integrator=integrator), statistic, bias, claimed, source)
+            if error := errors.get((scene, quantity)):
+                name = f"the relative bias of {quantity.replace('static_f', 'static f')}"
+                statistic = f"{name} at h = {PAPER_STEP:.0e} s on the {scene} surface"
+                bias, case = samples.interval(row, "error"), Case(integrator=integrator)
+                yield Finding(case, statistic, bias, (-error, error))
 
 
 @tests_statement
 def same_ratio(evidence: Evidence) -> Iterator[Finding]:
     flats = [scene for scene in evidence.records if not scene.level]
     alike = [s for s in flats if {name for name, _ in s.varied} - {"step"} == _RATIO]
-    for flat in surfaces.flat(evidence.records):
+    name = "static friction minus that with the paper's material, over the latter"
+    for flat, usual in surfaces.flat(evidence.records).items():
         for scene in sorted(alike, key=lambda scene: scene.varied):
-            modulus = float(dict(scene.varied)["youngs_modulus"])
+            runs, modulus = evidence.records[scene], float(dict(scene.varied)["youngs_modulus"])
             case = Case(constant="youngs_modulus", constant_value=modulus)
-            own, paper = (samples.friction(evidence, s) for s in (scene, flat))
-            name, apart = "static friction minus that with the paper's material", within(0.05)
-            more = samples.relative(own, paper, paper)
-            yield found_on(scene, f"{name}, over the latter", more, apart, case=case, beside=[flat])
-            lag = samples.mean(over_runs(samples.relative_lag, evidence.records[scene]))
-            yield found_on(scene, "(t_max - t_avg)/t_max", lag, ranges.NEGATIVE, case=case)
+            own, paper = (over_runs(samples.static_friction, each) for each in (runs, usual))
+            more = samples.difference(own, paper) / float(paper.mean())
+            yield Finding(case, name, more, (-0.05, 0.05), [scene, flat])
+            lag = samples.mean(over_runs(samples.relative_lag, runs))
+            yield Finding(case, "(t_max - t_avg)/t_max", lag, rule.NEGATIVE, [scene])
 
 
 def clusters(blocks: Mask) -> NDArray[np.integer]:
     """Number the clusters of blocks, joined by sides and corners, from 1 on; 0 elsewhere."""
     from scipy.ndimage import label  # slow to import
 
-    found: NDArray[np.integer] = label(blocks, structure=np.ones((3, 3)))[0]
-    return found
+    return np.asarray(label(blocks, structure=np.ones((3, 3)))[0])
 
 
 def single_events(run: Run) -> float:
@@ -74,7 +69,7 @@ def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
     events = "the share of clusters of precursors that are a single block", single_events
     for part, (name, quantity) in {"blocks": blocks, "events": events}.items():
         flat = surfaces.flat(evidence.records)
-        yield from share_on_each(flat, name, quantity, ranges.MOST, part=part)
+        yield from share_on_each(flat, name, quantity, rule.MOST, part=part)
 
 
 def starts_no_front(run: Run) -> float:
@@ -93,21 +88,19 @@ def starts_no_front(run: Run) -> float:
 @tests_statement
 def not_all_nucleate(evidence: Evidence) -> Iterator[Finding]:
     name = "the share of the blocks detached before 0.9 t_max that are not the first of a front"
-    flat = surfaces.flat(evidence.records)
-    return share_on_each(flat, name, starts_no_front, (1.0 - 0.9, 0.9))
+    return share_on_each(surfaces.flat(evidence.records), name, starts_no_front, (0.1, 0.9))
 
 
 @tests_statement
 def onset(evidence: Evidence) -> Iterator[Finding]:
     name, flat = "the share of blocks detached before t_max", surfaces.flat(evidence.records)
-    return on_each(flat, name, samples.before_peak, ranges.NEGLIGIBLE)
+    return on_each(flat, name, samples.before_peak, rule.NEGLIGIBLE)
 
 
 def strain_left(run: Record, minimum: int) -> tuple[Array, Array]:
-    """Compare the strain along x at each snapshot with that at the one of the force minimum.
+    """Return how much of the strain along x at the force minimum is left at each snapshot, (k,).
 
-    Returns the share of the strain at the minimum that is left (slope of the regression on it), and
-    the standard deviation over blocks relative to that at the minimum, each (k,).
+    As slope of the regression on it; and the standard deviation over that at the minimum.
     """
     strain = np.diff(run.snapshots[:, 0], axis=2).reshape(len(run.snapshots), -1)
     strain = strain - strain.mean(axis=1, keepdims=True)
@@ -117,6 +110,8 @@ def strain_left(run: Record, minimum: int) -> tuple[Array, Array]:
 
 @tests_statement
 def residual_strains(evidence: Evidence) -> Iterator[Finding]:
+    amount = "the standard deviation of the strain at {:.3g} µs, over that at the force minimum"
+    share = "the share of the strain at the force minimum that is left at {:.3g} µs"
     for scene, all_runs in surfaces.flat(evidence.records).items():
         runs = [run for run in all_runs if len(run.snapshots)]
         if not runs:
@@ -126,19 +121,17 @@ def residual_strains(evidence: Evidence) -> Iterator[Finding]:
         minimum = int(np.abs(times - np.mean(minima)).argmin())
         left, scatter = np.array([strain_left(run, minimum) for run in runs]).transpose(1, 2, 0)
         before, after = times < min(run.t_max for run in runs), times > times[minimum]
-        amount = "the standard deviation of the strain at {:.3g} µs, over that at the force minimum"
-        share = "the share of the strain at the force minimum that is left at {:.3g} µs"
         for part, statistic, values, claimed, when in (
             ("the appearance of residual strains", amount, scatter, (-INF, 1.0), before),
-            ("the removal of the strains at the minimum", share, left, ranges.NEGLIGIBLE, after),
-            ("the removal of all strains", amount, scatter, ranges.FEWER_THAN_HALF, after),
+            ("the removal of the strains at the minimum", share, left, rule.NEGLIGIBLE, after),
+            ("the removal of all strains", amount, scatter, rule.FEWER_THAN_HALF, after),
         ):
             for time, sample in zip(1e6 * times[when], values[when], strict=True):
-                found, case = samples.mean(sample), Case(part=part)
-                yield found_on(scene, statistic.format(time), found, claimed, case=case)
+                name, found = statistic.format(time), samples.mean(sample)
+                yield Finding(Case(part=part), name, found, claimed, [scene])
 
 
 @tests_statement
 def peak_before_average(evidence: Evidence) -> Iterator[Finding]:
     flat = surfaces.flat(evidence.records)
-    return on_each(flat, "t_max - t_avg", samples.lag, ranges.NEGATIVE, "s")
+    return on_each(flat, "t_max - t_avg", samples.lag, rule.NEGATIVE, "s")

@@ -14,12 +14,13 @@ from springblock.analysis.correlation import Correlation, side_times
 from springblock.analysis.estimate import AnyOf, Estimate
 from springblock.analysis.lowest import Lowest, lowest
 from springblock.analysis.statistics import pillar_map, pillar_ring
-from springblock.claims import ranges, samples, surfaces
+from springblock.claims import rule, samples, surfaces
 from springblock.claims.rule import Case, Evidence, Finding, tests_statement
-from springblock.claims.samples import Quantity, found_on, on_each, over_runs, share_on_each
-from springblock.claims.surfaces import Mask, pillars, pillars_of
+from springblock.claims.samples import Quantity, on_each, over_runs, share_on_each
+from springblock.claims.surfaces import Mask, case_of, pillars, pillars_of
 from springblock.io.records import Record
 from springblock.model.material import Material
+from springblock.model.numbers import Array
 from springblock.model.scene import Scene
 from springblock.simulation.run import Run
 
@@ -57,13 +58,13 @@ def _in_order(scene: Scene, runs: Sequence[Record], case: Case) -> Iterator[Find
         for (early, before), (late, after) in pairwise(zip(names, times, strict=True)):
             statistic = f"t_det/t_max of the {late} minus that of the {early}"
             later = samples.mean(after - before)
-            yield found_on(scene, statistic, later, ranges.POSITIVE, case=case)
+            yield Finding(case, statistic, later, rule.POSITIVE, [scene])
 
 
 @tests_statement
 def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     for scene, runs in pillars(evidence.records).items():
-        yield from _in_order(scene, runs, surfaces.case_of(scene))
+        yield from _in_order(scene, runs, case_of(scene))
 
 
 def in_order(run: Record) -> float:
@@ -79,12 +80,12 @@ def in_order(run: Record) -> float:
 @tests_statement
 def always_in_order(evidence: Evidence) -> Iterator[Finding]:
     name = "the share of pillars whose parts detach in this order (mean t_det)"
-    every, claimed = pillars(evidence.records), ranges.NEARLY_ALL
+    every, claimed = pillars(evidence.records), rule.NEARLY_ALL
     yield from share_on_each(every, name, in_order, claimed, part="single pillars")
     for scatter, scenes in _by_scatter(evidence).items():
+        varied = {"constant": _SCATTER, "constant_value": scatter}
         for scene in (s for s in scenes if s.varied and s.n_p >= surfaces.SMALLEST):
-            case = replace(surfaces.case_of(scene), part="mean times")
-            case = replace(case, constant=_SCATTER, constant_value=scatter)
+            case = case_of(scene, part="mean times", **varied)
             yield from _in_order(scene, evidence.records[scene], case)
 
 
@@ -94,47 +95,41 @@ def early_near_border(run: Record) -> float:
     return float(early[:, surfaces.from_edge(run.scene.n_p) < _OUTER].mean())
 
 
-@tests_statement
-def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
-    blocks = "the share of blocks on the border or adjacent to it that detach before t_max"
-    every, claimed = pillars(evidence.records), ranges.NEARLY_ALL
-    yield from share_on_each(every, blocks, early_near_border, claimed, part="single blocks")
-    for scene, runs in every.items():
-        case = replace(surfaces.case_of(scene), part="mean times")
-        *_, (ring, parts) = _rings(scene.n_p)
-        last = pillar_map(runs, scene.pattern)[:, parts[_RING["x"]]].mean(axis=1)
-        name = f"t_det/t_max of the edges along x ({ring})"
-        yield found_on(scene, name, samples.mean(last), (-ranges.INF, 1.0), case=case)
-
-
 def near_border(run: Record) -> float:
-    """Return the share of the precursors on the border of a pillar or adjacent to it."""
+    """Return the share of the precursors in the two outermost rings of a pillar."""
     early = np.stack(pillars_of(run.t_det < run.t_max, run.scene))
     border = surfaces.from_edge(run.scene.n_p) < _OUTER
     return samples.share_of(np.broadcast_to(border, early.shape), early)
 
 
 @tests_statement
+def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
+    blocks = "the share of blocks on the border or adjacent to it that detach before t_max"
+    every, claimed = pillars(evidence.records), rule.NEARLY_ALL
+    yield from share_on_each(every, blocks, early_near_border, claimed, part="single blocks")
+    for scene, runs in every.items():
+        *_, (ring, parts) = _rings(scene.n_p)
+        last = samples.mean(pillar_map(runs, scene.pattern)[:, parts[_RING["x"]]].mean(axis=1))
+        case, name = case_of(scene, part="mean times"), f"t_det/t_max of the edges along x ({ring})"
+        yield Finding(case, name, last, (-rule.INF, 1.0), [scene])
+
+
+@tests_statement
 def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
-    for scene, runs in pillars(evidence.records).items():
-        for what, quantity, claimed in (
-            ("on the border or adjacent to it", near_border, ranges.MOST),
-            ("isolated", samples.isolated, ranges.FEWER_THAN_HALF),
-        ):
-            name = f"the share of the blocks detached before t_max that are {what}"
-            yield found_on(scene, name, samples.share(over_runs(quantity, runs)), claimed)
+    name = "the share of the blocks detached before t_max that are"
+    where = f"{name} on the border or adjacent to it", near_border, rule.MOST
+    alone = f"{name} isolated", samples.isolated, rule.FEWER_THAN_HALF
+    for (scene, runs), one in product(pillars(evidence.records).items(), (where, alone)):
+        yield from share_on_each({scene: runs}, *one)
 
 
 @tests_statement
 def peak_after_average(evidence: Evidence) -> Iterator[Finding]:
-    return on_each(pillars(evidence.records), "t_max - t_avg", samples.lag, ranges.POSITIVE, "s")
+    return on_each(pillars(evidence.records), "t_max - t_avg", samples.lag, rule.POSITIVE, "s")
 
 
 def warning(run: Run) -> float:
-    """Return the time from the first detachment to t_max, over t_max.
-
-    Absolute times grow with the normal force on a block, which is larger on pillars.
-    """
+    """Return the time from the first detachment to t_max, over t_max."""
     return 1.0 - float(np.nanmin(run.t_det)) / run.t_max
 
 
@@ -145,19 +140,15 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
         "the share of precursors": samples.before_peak,
         _WIDTH: samples.width,
     }
+    over = "minus that on the flat surface, over this difference at larger n_p (magnitudes)"
     small = [scene for scene in pillars(evidence.records, 0) if scene.n_p < surfaces.SMALLEST]
     larger = pillars(evidence.records)
     for flat, scene, other in product(surfaces.flat(evidence.records), small, larger):
-        case = Case(n_p=scene.n_p, against_n_p=other.n_p)
+        case, source = Case(scene.n_p, other.n_p), [scene, flat, other]
         for name, quantity in quantities.items():
             three = [over_runs(quantity, evidence.records[s]) for s in (scene, flat, other)]
-            away = samples.magnitude(samples.position(*three))
-            statistic = (
-                f"{name} minus that on the flat surface, over this difference at larger n_p "
-                "(magnitudes)"
-            )
-            claimed, beside = ranges.FEWER_THAN_HALF, (flat, other)
-            yield found_on(scene, statistic, away, claimed, case=case, beside=beside)
+            away = abs(samples.position(*three))
+            yield Finding(case, f"{name} {over}", away, rule.FEWER_THAN_HALF, source)
 
 
 @tests_statement
@@ -167,12 +158,12 @@ def many_precursors(evidence: Evidence) -> Iterator[Finding]:
     for flat, scene in product(flats, larger):
         for name, quantity in ((_PRECURSORS, samples.before_peak), (time, warning)):
             statistic = f"{name}, minus that on the flat surface"
-            yield samples.compared(evidence, statistic, quantity, scene, flat)
+            yield samples.compared(evidence, statistic, quantity, (scene, flat))
 
 
 def _lowest(evidence: Evidence, scenes: Iterable[Scene]) -> Lowest:
     """Return the scene with the lowest mean static friction, and those that may have the lowest."""
-    return lowest({scene: samples.friction(evidence, scene) for scene in scenes})
+    return lowest({s: over_runs(samples.static_friction, evidence.records[s]) for s in scenes})
 
 
 def _of_all_sizes(evidence: Evidence) -> list[Scene]:
@@ -188,13 +179,14 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
     for end in (scenes[0], scenes[-1]) if scenes else ():
         best = _lowest(evidence, scenes[1:-1]).place
         name = f"static friction at n_p = {end.n_p} minus that at n_p = {best.n_p}, the lowest mean"
-        yield samples.compared(evidence, name, samples.static_friction, end, best, case=Case())
+        pair = end, best
+        yield samples.compared(evidence, name, samples.static_friction, pair, case=Case())
 
 
 @tests_statement
 def negligible_edges(evidence: Evidence) -> Iterator[Finding]:
     large = pillars(evidence.records, _LARGE)
-    return share_on_each(large, _PRECURSORS, samples.before_peak, ranges.NEGLIGIBLE)
+    return share_on_each(large, _PRECURSORS, samples.before_peak, rule.NEGLIGIBLE)
 
 
 def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
@@ -217,29 +209,23 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
 def _sizes_over_length(evidence: Evidence) -> Iterator[Finding]:
     """Yield the size of lowest static friction over l_c for each scatter and each fit."""
     for scatter, scenes in _by_scatter(evidence).items():
-        broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
-        candidates = scenes if own else _of_all_sizes(evidence)
-        runs = evidence.records[broad]
+        candidates = scenes if scenes[0].varied else _of_all_sizes(evidence)
         sizes = [scene.n_p for scene in _lowest(evidence, candidates).alike]
+        broad = max(scenes, key=attrgetter("n_p"))
+        runs, behind = evidence.records[broad], dict.fromkeys([*candidates, broad])
         fit = Correlation(side_times(runs, broad.pattern, surfaces.ALONG)).length()
+        where = f"l_c at n_p = {broad.n_p}, with {_SCATTER} = {scatter:g}"
         minimum = f"n_p = {' or '.join(map(str, sizes))}"
-        name = (
-            f"the size of lowest static friction ({minimum}) over l_c at n_p = {broad.n_p}, with "
-            f"{_SCATTER} = {scatter:g}"
-        )
-        for curve, fitted in ((ranges.PLAIN, fit.fitted), (ranges.SCALED, fit.tail)):
+        name = f"the size of lowest static friction ({minimum}) over {where}"
+        for curve, fitted in ((surfaces.PLAIN, fit.fitted), (surfaces.SCALED, fit.tail)):
             value, low, high = map(float, fitted)
             ratios = [Estimate(n_p / value, n_p / high, n_p / low, len(runs)) for n_p in sizes]
-            source = surfaces.in_files(*dict.fromkeys([*candidates, broad]))
-            yield Finding(Case(fit=curve), name, AnyOf.these(*ratios), ranges.COMPARABLE, source)
+            yield Finding(Case(fit=curve), name, AnyOf.these(*ratios), rule.COMPARABLE, behind)
 
 
-def _over_t_avg(quantity: Quantity) -> Quantity:
-    """Divide a time by t_avg in place of t_max.
-
-    Where there are two load peaks, t_max is that of either.
-    """
-    return lambda run: quantity(run) * run.t_max / run.t_avg
+def _over_t_avg(quantity: Quantity, runs: Iterable[Record]) -> Array:
+    """Return a time over t_avg, (k,); t_max is the time of either of two load peaks."""
+    return over_runs(lambda run: quantity(run) * run.t_max / run.t_avg, runs)
 
 
 @tests_statement
@@ -249,27 +235,20 @@ def rounder_and_longer(evidence: Evidence) -> Iterator[Finding]:
     If several sizes may have the lowest friction, the interval encloses the differences of all; it
     has no upper end for these sizes themselves, and where the intervals differ in sign.
     """
-    scenes = _of_all_sizes(evidence)
+    scenes, records = _of_all_sizes(evidence), evidence.records
     candidates = _lowest(evidence, scenes).alike if scenes else []
     sizes = " or ".join(str(scene.n_p) for scene in candidates)
+    there = f"over t_avg, at the n_p of lowest static friction ({sizes}), minus that at n_p ="
+    quantities = {_WIDTH: samples.width, "the duration of the transition": samples.lasting}
     ends = [scene for scene in scenes[:1] + scenes[-1:] if candidates != [scene]]
-    for (name, quantity), other in product(
-        {_WIDTH: samples.width, "the duration of the transition": samples.lasting}.items(), ends
-    ):
-        sample = over_runs(_over_t_avg(quantity), evidence.records[other])
-        there = [
-            samples.difference(over_runs(_over_t_avg(quantity), evidence.records[each]), sample)
-            for each in candidates
-            if each != other
-        ]
-        joint = AnyOf.these(*there)
-        if other in candidates or (there[1:] and joint.ci_low <= 0.0 < joint.ci_high):
+    for (name, quantity), other in product(quantities.items(), ends):
+        sample = _over_t_avg(quantity, records[other])
+        others = (_over_t_avg(quantity, records[each]) for each in candidates if each != other)
+        found = [samples.difference(each, sample) for each in others]
+        joint = AnyOf.these(*found)
+        if other in candidates or (found[1:] and joint.ci_low <= 0.0 < joint.ci_high):
             # which candidate it is decides, not the number of realisations
-            joint = AnyOf.these(*there, replace(there[0], ci_high=ranges.INF))
-        statistic = (
-            f"{name}, over t_avg, at the n_p of lowest static friction ({sizes}), minus that at "
-            f"n_p = {other.n_p}"
-        )
-        case = replace(surfaces.case_of(other), part=name.removeprefix("the "))
-        source = surfaces.in_files(*candidates, other)
-        yield Finding(case, statistic, joint, ranges.POSITIVE, source)
+            joint = AnyOf.these(*found, replace(found[0], ci_high=rule.INF))
+        case = case_of(other, part=name.removeprefix("the "))
+        statistic, behind = f"{name}, {there} {other.n_p}", [*candidates, other]
+        yield Finding(case, statistic, joint, rule.POSITIVE, behind)

@@ -4,20 +4,15 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from operator import attrgetter
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from springblock.analysis.estimate import UNKNOWN, Estimate
-from springblock.analysis.statistics import (
-    difference_interval,
-    mean_interval,
-    samples_interval,
-)
-from springblock.claims import ranges, surfaces
-from springblock.claims.rule import Case, Evidence, Finding, Range
-from springblock.claims.surfaces import Mask
+from springblock.analysis.statistics import difference_interval, mean_interval, samples_interval
+from springblock.claims.rule import POSITIVE, Case, Evidence, Finding, Range
+from springblock.claims.surfaces import Mask, case_of
 from springblock.io.records import Record
 from springblock.io.rows import Row
 from springblock.model.numbers import Array
@@ -35,11 +30,6 @@ def over_runs(quantity: Callable[[T], float], runs: Iterable[T]) -> Array:
     """Return a number per realisation, (k,), without those that are NaN."""
     values = np.array([quantity(run) for run in runs], dtype=float)
     return values[np.isfinite(values)]
-
-
-def friction(evidence: Evidence, scene: Scene) -> Array:
-    """Return the static friction of each realisation of a scene, (k,)."""
-    return over_runs(static_friction, evidence.records[scene])
 
 
 def interval(row: Row, value: str, limits: str = "ci") -> Estimate:
@@ -65,21 +55,6 @@ def difference(first: Array, second: Array) -> Estimate:
     return Estimate.of(difference_interval(first, second), fewest) if fewest else UNKNOWN
 
 
-def relative(first: Array, second: Array, base: Array) -> Estimate:
-    """Return the difference of two means over a third mean, whose error is neglected."""
-    apart, scale = difference(first, second), mean(base).value
-    if not scale:
-        return UNKNOWN
-    return Estimate(apart.value / scale, apart.ci_low / scale, apart.ci_high / scale, apart.n)
-
-
-def magnitude(estimate: Estimate) -> Estimate:
-    """Return the absolute value; its upper limit is that of the end further from zero."""
-    value, ends = estimate.value, (estimate.ci_low, estimate.ci_high)
-    nearer = -ends[1] if value < 0.0 else ends[0]
-    return Estimate(abs(value), nearer, float(np.max(np.abs(ends))), estimate.n)
-
-
 def position(sample: Array, zero: Array, one: Array) -> Estimate:
     """Return the position of the mean of `sample` between those of `zero`, 0, and `one`, 1; BCa.
 
@@ -97,20 +72,6 @@ def position(sample: Array, zero: Array, one: Array) -> Estimate:
     return Estimate.of(samples_interval(samples, relative_place), fewest)
 
 
-def found_on(
-    scene: Scene,
-    statistic: str,
-    estimate: Estimate,
-    claimed: Range,
-    unit: str = "1",
-    case: Case | None = None,
-    beside: Iterable[Scene] = (),
-) -> Finding:
-    """Return a finding on a scene, by default with its lengths as the case."""
-    case = case or surfaces.case_of(scene)
-    return Finding(case, statistic, estimate, claimed, surfaces.in_files(scene, *beside), unit)
-
-
 def on_each(
     scenes: Mapping[Scene, Sequence[T]],
     statistic: str,
@@ -118,15 +79,12 @@ def on_each(
     claimed: Range,
     unit: str = "1",
     estimate: Callable[[ArrayLike], Estimate] = mean,
-    part: str | None = None,
+    **case: Any,
 ) -> Iterator[Finding]:
     """Yield the estimate of a quantity of the realisations of each scene."""
     for scene, runs in scenes.items():
-        found, case = (
-            estimate(over_runs(quantity, runs)),
-            replace(surfaces.case_of(scene), part=part),
-        )
-        yield found_on(scene, statistic, found, claimed, unit, case)
+        found, where = estimate(over_runs(quantity, runs)), case_of(scene, **case)
+        yield Finding(where, statistic, found, claimed, [scene], unit)
 
 
 share_on_each = partial(on_each, estimate=share)  #: its interval stays between 0 and 1
@@ -136,9 +94,8 @@ def compared(
     evidence: Evidence,
     statistic: str,
     quantity: Quantity,
-    first: Scene,
-    second: Scene,
-    claimed: Range = ranges.POSITIVE,
+    pair: tuple[Scene, Scene],
+    claimed: Range = POSITIVE,
     case: Case | None = None,
 ) -> Finding:
     """Return the mean of a quantity over the realisations of one scene minus that of another.
@@ -146,13 +103,13 @@ def compared(
     One surface that slides in two directions is compared seed by seed: equal seeds have equal
     friction coefficients in both.
     """
-    runs, others = evidence.records[first], evidence.records[second]
+    (first, second), (runs, others) = pair, (evidence.records[scene] for scene in pair)
     if replace(first, direction=second.direction) == second:
         there = {run.seed: quantity(run) for run in others}
         apart = mean([quantity(run) - there[run.seed] for run in runs if run.seed in there])
     else:
         apart = difference(over_runs(quantity, runs), over_runs(quantity, others))
-    return found_on(first, statistic, apart, claimed, case=case, beside=[second])
+    return Finding(case or case_of(first), statistic, apart, claimed, pair)
 
 
 def before_peak(run: Run) -> float:
@@ -171,13 +128,6 @@ def relative_lag(run: Run) -> float:
     return lag(run) / run.t_max
 
 
-def neighbours(field: Array, outside: float) -> Array:
-    """Return the values of the eight neighbours, (8, N, N), with `outside` beyond the edges."""
-    padded, (rows, columns) = np.pad(field, 1, constant_values=outside), field.shape
-    shifts = [(y, x) for y in range(3) for x in range(3) if (y, x) != (1, 1)]
-    return np.stack([padded[y : y + rows, x : x + columns] for y, x in shifts])
-
-
 def width(run: Run) -> float:
     """Return the time during which the force exceeds 95 % of its maximum, over t_max."""
     samples = np.count_nonzero(run.force > _HIGH * run.force.max())
@@ -191,11 +141,10 @@ def lasting(run: Run, first: float = 0.1) -> float:
 
 
 def isolated(run: Run) -> float:
-    """Return the share of the blocks detached before t_max that detach before all neighbours.
-
-    Blocks that never detach, NaN, count as later.
-    """
-    alone = np.all(~(neighbours(run.t_det, np.inf) < run.t_det), axis=0)
+    """Return the share of the blocks detached before t_max that detach before all neighbours."""
+    padded = np.pad(run.t_det, 1, constant_values=np.inf)
+    around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))  # with the block itself
+    alone = run.t_det <= np.fmin.reduce(np.fmin.reduce(around, axis=-1), axis=-1)
     return share_of(alone, run.t_det < run.t_max)
 
 
