@@ -126,8 +126,8 @@ def test_one_finding_decides_a_verdict(intervals, decided):
 def test_the_table_of_findings_has_the_columns_that_tell_cases_apart():
     found = [finding(*HOLDS, n_p=6, fit="x"), finding(-1.0, 2.0, n_p=20, n=1000)]
     header, lines = judged(with_findings("growing_length", *found)).table
-    assert header == ["n_p", "fit", "value", "claimed", "outcome"]
-    assert lines[0] == ("6", "x", "1500000 [928203, 2071797] µs", "> 0", "holds")
+    assert header == ["n_p", "fit", "statistic", "value", "claimed", "outcome"]
+    assert lines[0] == ("6", "x", "a difference", "1500000 [928203, 2071797] µs", "> 0", "holds")
     assert [line[-1] for line in lines] == ["holds", "open"]
 
 
