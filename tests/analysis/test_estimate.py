@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import t
 
-from springblock.analysis.estimate import Estimate
+from springblock.analysis.estimate import AnyOf, Estimate
 from springblock.analysis.statistics import mean_interval
 
 
@@ -54,3 +54,12 @@ def test_differences_of_the_same_runs_add_errors():
 
 def test_an_estimate_divided_by_a_number_keeps_its_sample():
     assert Estimate(2.0, 1.0, 4.0, 20) / 2.0 == Estimate(1.0, 0.5, 2.0, 20)
+
+
+def test_one_of_several_estimates_has_limits_that_enclose_those_of_each():
+    """The distance between them is not a statistical error, and does not grow with the level."""
+    small, large = Estimate(1.0, 0.5, 1.2, 20), Estimate(3.0, 2.0, 3.5, 20)
+    either = AnyOf.these(small, large)
+    for together in (1, 12):
+        (low, _), (_, high) = small.limits(together), large.limits(together)
+        assert either.limits(together) == (low, high)
