@@ -27,7 +27,7 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
     for integrator in ("leapfrog", "rk4", PLAIN):
         for row in select(paired, integrator=integrator):
             scene, quantity = row["scene"], row["quantity"]
-            if error := errors.get((scene, quantity)):
+            if (error := errors.get((scene, quantity))) is not None:
                 name = f"the relative bias of {quantity.replace('static_f', 'static f')}"
                 statistic = f"{name} at h = {PAPER_STEP:.0e} s on the {scene} surface"
                 bias, case = samples.interval(row, "error"), Case(integrator=integrator)
