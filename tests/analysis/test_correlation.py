@@ -13,6 +13,7 @@ from springblock.analysis.correlation import (
     fit_length,
     fit_tail,
     groove_times,
+    misfits,
     references,
     side_times,
 )
@@ -181,3 +182,11 @@ def test_too_few_or_equal_realisations_are_refused(decaying):
         Correlation(decaying[:2])
     with pytest.raises(ValueError, match="is not defined"):
         Correlation(np.full((5, 1, 2, 6), MIDDLE))
+
+
+def test_each_kind_of_curve_fits_itself_best():
+    r = np.arange(1.0, 7.0)
+    curves = np.exp(-r / 3.0), (1.0 + r) ** -0.5, np.maximum(0.0, 1.0 - r / 8.0)
+    for kind, distances in enumerate(zip(*misfits(0.7 * np.array(curves)), strict=True)):
+        assert np.argmin(distances) == kind
+        assert distances[kind] < 5e-3  # lengths are tried 3.5 % apart

@@ -11,6 +11,7 @@ from springblock.analysis.statistics import (
     Interval,
     bootstrap_interval,
     bootstrap_weights,
+    both_peaks,
     cut,
     difference_interval,
     events,
@@ -22,8 +23,6 @@ from springblock.analysis.statistics import (
     pillar_map,
     pillar_ring,
     prominence,
-    proportion_interval,
-    repeatability,
     samples_interval,
     standard_error,
     whole_curve,
@@ -105,14 +104,6 @@ def test_errors_of_independent_values_add_in_quadrature_each_on_its_side():
     """The difference is smallest where the first is small and the second large."""
     found = independent_difference(Interval(5.0, 2.0, 6.0), Interval(1.0, 0.0, 5.0))
     assert tuple(found) == pytest.approx((4.0, 4.0 - 5.0, 4.0 + 2.0**0.5))
-
-
-def test_the_interval_of_a_share_is_exact():
-    """All of 20: a share of 0.025^(1/20) would still show as many once in forty times."""
-    assert tuple(proportion_interval(20, 20)) == pytest.approx((1.0, 0.025 ** (1.0 / 20.0), 1.0))
-    share, low, high = proportion_interval(6, 20)
-    assert share == 0.3
-    assert low + high == pytest.approx(0.119 + 0.543, abs=2e-3)  # tables of Clopper and Pearson
 
 
 def test_curves_are_cut_to_the_shortest_run_or_end_with_the_longest():
@@ -260,29 +251,6 @@ def test_limits_are_percentiles_if_no_single_realisation_matters():
     assert tuple(bootstrap_interval(median, 20)) == (1.0, *expected)
 
 
-def test_repeatability_is_the_share_of_variance_that_fields_have_in_common(rng):
-    common, noise = rng.normal(0.0, 1.0, 2000), rng.normal(0.0, 2.0, (12, 2000))
-    share, low, high = repeatability(common + noise + rng.normal(size=(12, 1)))
-    assert low < 0.2 < high
-    assert share == pytest.approx(0.2, abs=0.02)
-    assert tuple(repeatability(np.tile(common, (4, 1)))) == pytest.approx((1.0, 1.0, 1.0))
-    assert np.isnan(repeatability(noise[:2])).all()
-
-
-def test_the_interval_of_repeatability_is_the_jackknifes(rng):
-    """Its error is k - 1 times that of the mean of k values, each with one field left out.
-
-    Fields of noise have nothing in common on average.
-    """
-    fields = rng.normal(size=(200, 8, 50))
-    found = np.transpose([repeatability(each) for each in fields])
-    assert abs(found[0].mean()) < 0.005
-    left_out = [repeatability(np.delete(fields[0], i, axis=0)).mean for i in range(8)]
-    half = t.ppf(0.975, 7) * 7.0 * standard_error(np.array(left_out))
-    value = found[0, 0]
-    assert tuple(found[:, 0]) == pytest.approx((value, value - half, value + half))
-
-
 def test_an_event_ends_where_neighbours_detach_apart():
     times = np.array([[0.500, 0.504, 0.508, 0.600, 0.602], [0.5, 0.6, 0.7, 0.8, 0.9]])
     assert events(times).tolist() == events(times[:, ::-1]).tolist() == [2, 5]
@@ -294,3 +262,12 @@ def test_numbers_are_written_to_what_the_interval_leaves():
     assert number(Interval(*map(np.array, (-0.064, -0.13, 0.002)))) == "-0.064 [-0.130, 0.002]"
     assert number(Interval(*map(np.array, (0.5, 0.0, 1.0)))) == "0.5 [0.0, 1.0]"
     assert number(Interval(*map(np.array, (0.5, 0.5, 0.5))), " µm") == "0.5 µm"
+
+
+def test_of_several_load_peaks_the_two_most_prominent_count():
+    time = np.arange(500.0)
+    places = [(100, 0.64), (220, 0.62), (300, 0.65), (345, 0.645)]
+    hills = [height * np.exp(-(((time - place) / 15.0) ** 2)) for place, height in places]
+    assert both_peaks(sum(hills))[::2] == (100, 300)
+    assert 240 < both_peaks(hills[1] + hills[2]).valley < 280
+    assert both_peaks(hills[2]) is None

@@ -61,7 +61,7 @@ ORIGIN = {"code_version": "1.0", "configuration": "{}", "configuration_digest": 
 @cache
 def evidence() -> tuple[list[Record], list[Row]]:
     """Realisations of all surfaces that the statements need, and the table `claims`."""
-    records = paper.realisations(paper.CURVES)
+    records = paper.realisations()
     return records, judged(STATEMENTS, paper.evidence(records))
 
 
@@ -253,13 +253,17 @@ def batch(file: Path, runs: list[Record]) -> Path:
 
 def commands() -> str:
     """What commands print and write that read realisations."""
-    few = {scene: [paper.record(scene, seed) for seed in range(5)] for scene in paper.CURVES}
+    values = (5e-5, 1e4, 0.02), (5e-3, 2e5, 0.3)
+    names = "slider_velocity", "pressure", "mu_static_std"
+    pairs = [pair for each in values for pair in zip(names, each, strict=True)]
+    varied = [Scene(paper.N, varied=[pair]) for pair in pairs]
+    scenes = [*paper.SCENES, *varied]
+    few = {scene: [paper.record(scene, seed) for seed in range(5)] for scene in scenes}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         flat = batch(folder / "flat.parquet", few[paper.FLAT])
         small = batch(folder / "pillars-6.parquet", few[paper.PILLARS[1]])
         large = batch(folder / "pillars-24.parquet", few[paper.PILLARS[2]][:4])
-        varied = [*paper.FEW, *paper.MANY]
         others = [batch(folder / f"{i}.parquet", few[scene]) for i, scene in enumerate(varied)]
         kept = {"snapshot_times": np.array([1e-5]), "snapshots": np.zeros((1, 2, paper.N, paper.N))}
         grooved = batch(folder / "grooves.parquet", [replace(r, **kept) for r in few[paper.ALONG]])

@@ -9,12 +9,10 @@ import pytest
 
 from springblock.claims import STATEMENTS
 from springblock.claims.rule import Evidence
-from springblock.claims.summary import values
 from springblock.claims.table import SCHEMA, rows
 from springblock.cli import main
 from springblock.io.parquet import rows_to_table, write
 from springblock.io.records import read_records
-from springblock.pages import rendered
 from springblock.plotting.figures import FIGURES
 from springblock.report import markup, media
 from springblock.report.markup import typeset
@@ -33,23 +31,20 @@ def untested(tmp_path):
 
 
 def test_a_figure_has_the_verdicts_of_the_study(picture, untested):
-    """They lead to the page of statements, if there is one."""
     first = STATEMENTS[0]
     figure = picture(f"figure_{first.figure}.png", "a")
     text = page([figure, untested], {})
     _, _, after = text.partition(str(typeset(first.title)))
     assert "0 of 0 cases hold" in after
-    assert "#claims-" not in text
     assert "verdicts of this study" not in page([figure], {})
 
 
-def test_links_to_statements_lead_to_their_parts_of_the_page(picture, tmp_path, untested):
-    own = tmp_path / "claims.md"
-    own.write_text(rendered("claims.md", **values(rows(STATEMENTS, Evidence()))))
-    text = page([own, untested, *(picture(f"figure_{i}.png", "a") for i in range(1, 10))], {})
-    links = re.findall(r'href="#(claims-\d[^"]+)"', text)
-    assert len(links) >= len(STATEMENTS)
-    assert all(f'id="{link}"' in text for link in links)
+def test_the_report_has_words_criterion_reason_and_remark_of_each_statement(picture, untested):
+    text = page([untested, *(picture(f"figure_{i}.png", "a") for i in range(1, 10))], {})
+    for each in STATEMENTS:
+        part = text.partition(f'id="statement-{each.id}"')[2].partition("</details>")[0]
+        for said in (each.words, each.criterion, each.remark, each.changed):
+            assert str(typeset(said)) in part
 
 
 @pytest.mark.parametrize(
@@ -69,15 +64,6 @@ def test_links_headings_formulas_and_symbols_of_a_page_are_set(text, html):
     page = markup.rendered("a", f"# T\n\n{text}\n")
     assert page.title == "T"
     assert html in page.body
-
-
-def test_folded_parts_are_the_only_html_of_a_page():
-    text = "<details><summary>n_p <= 3</summary>\n\nb\n\n</details>\n\n<details><b>\n"
-    body = markup.rendered("a", text.replace("<=", "and")).body
-    assert "<details><summary><var>n<sub>p</sub></var> and 3</summary>" in body
-    assert body.count("<details>") == body.count("</details>") == 1
-    body = markup.rendered("a", text).body  # not a plain title
-    assert "<summary>" not in body
 
 
 def test_pages_of_the_report_link_to_each_other():
@@ -126,7 +112,7 @@ def test_means_are_those_of_ensembles_with_the_constants_of_the_study(springbloc
     how = "simulate", "--n-blocks", 8, "--duration", 2e-6, "--output"
     springblock(*how, own)
     springblock(*how, other, "--gamma", "4321")
-    springblock("aggregate", own, other, "--configuration", 0, "--output", table)
+    springblock("aggregate", own, other, "--output", table)
     said = re.sub(r"<script.*", "", page([table], {}), flags=re.DOTALL)
     means = said.partition('id="means"')[2].partition("</section>")[0]
     assert means.count("<tr>") == 2  # a heading and one ensemble

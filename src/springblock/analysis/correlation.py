@@ -228,3 +228,22 @@ def amplitude(correlation: Array, error: Array, lengths: Array) -> Array:
 
 def _distances(last: int) -> Array:
     return np.arange(1.0, last + 1.0)
+
+
+def misfits(correlation: Array, is_free: bool = True) -> list[Array]:
+    """Return the rms deviation of c(r), (b, r) from r = 1 on, from the best curve of each kind.
+
+    Exponentials, power laws and straight lines, each with a length on a grid, and with an amplitude
+    that is free or 1; (b,) each.
+    """
+    r = np.arange(1.0, correlation.shape[-1] + 1.0)
+    lengths = np.geomspace(0.1, 100.0, 200)[:, None]
+    power_law, line = (1.0 + r) ** (-1.0 / lengths), np.maximum(0.0, 1.0 - r / lengths)
+    found = []
+    for curves in (np.exp(-r / lengths), power_law, line):
+        square = np.maximum((curves**2).sum(axis=-1), np.finfo(float).tiny)
+        common = correlation @ curves.T
+        explained = common**2 / square if is_free else 2.0 * common - square
+        left = (correlation**2).sum(axis=-1) - explained.max(axis=-1)
+        found.append(np.sqrt(np.maximum(left, 0.0) / len(r)))
+    return found

@@ -3,7 +3,9 @@
 import math
 from dataclasses import dataclass
 
-from springblock.analysis.statistics import Interval, proportion_interval, students_t
+import numpy as np
+
+from springblock.analysis.statistics import Interval, independent_difference, students_t
 
 _MISS = 0.05  #: probability that any of several intervals misses its true value
 
@@ -38,14 +40,25 @@ class Estimate:
         lowest, highest = self.bounds
         return max(lowest, self.value - wider * below), min(highest, self.value + wider * above)
 
+    def __truediv__(self, scale: float) -> "Estimate":
+        """Divide by a positive number without error."""
+        value, low, high = (each / scale for each in (self.value, self.ci_low, self.ci_high))
+        return Estimate(value, low, high, self.n)
 
-class Proportion(Estimate):
-    """A proportion of realisations, with exact limits at any level."""
+    def __abs__(self) -> "Estimate":
+        """Return the absolute value; its upper limit is that of the end further from zero."""
+        nearer = -self.ci_high if self.value < 0.0 else self.ci_low
+        return Estimate(abs(self.value), nearer, max(abs(self.ci_low), abs(self.ci_high)), self.n)
 
-    def limits(self, together: int) -> tuple[float, float]:
-        """Limits as in `Estimate.limits`, within 0 and 1."""
-        found = proportion_interval(round(self.value * self.n), self.n, 1.0 - _MISS / together)
-        return float(found.low), float(found.high)
+    def __sub__(self, other: "Estimate") -> "Estimate":
+        """Subtract an estimate from other realisations; independent errors add in quadrature."""
+        ends = (Interval(*map(np.array, (e.value, e.ci_low, e.ci_high))) for e in (self, other))
+        return Estimate.of(independent_difference(*ends), min(self.n, other.n))
+
+    def minus_paired(self, other: "Estimate") -> "Estimate":
+        """Subtract an estimate from the same realisations; errors of unknown correlation add up."""
+        low, high = self.ci_low - other.ci_high, self.ci_high - other.ci_low
+        return Estimate(self.value - other.value, low, high, min(self.n, other.n))
 
 
 @dataclass(frozen=True)

@@ -132,16 +132,6 @@ def _bca(
     return Interval(value, *np.where(np.isnan(limits), plain, limits))
 
 
-def proportion_interval(hits: int, k: int, level: float = _LEVEL) -> Interval:
-    """Proportion of k realisations, with the exact interval of Clopper and Pearson 1934."""
-    from scipy.special import betaincinv  # slow to import, and most jobs do not need it
-
-    tail = 0.5 * (1.0 - level)
-    low = betaincinv(hits, k - hits + 1, tail) if hits else 0.0
-    high = betaincinv(hits + 1, k - hits, 1.0 - tail) if hits < k else 1.0
-    return Interval(np.array(hits / k), np.array(low), np.array(high))
-
-
 def bootstrap_weights(k: int) -> Array:
     """Weights of k realisations in bootstrap resamples, (resamples, k); each row sums to 1.
 
@@ -183,32 +173,6 @@ def standard_error(values: Array) -> Array:
     if k == 1:
         return np.full(values.shape[1:], np.inf)
     return values.std(axis=0, ddof=1) / np.sqrt(k)
-
-
-def repeatability(fields: Array) -> Interval:
-    """Fraction of the spatial variance that is common to all k fields, (k, places).
-
-    This is the intraclass correlation (Shrout & Fleiss 1979, doi:10.1037/0033-2909.86.2.420): the
-    mean covariance of two fields over their mean variance, after their means are subtracted. It is
-    zero, up to scatter, if all places have the same mean, and one if all fields are equal. The
-    95 % interval is Student's t with the jackknife error; a bootstrap would compare fields with
-    themselves. NaN for fewer than three fields.
-    """
-    k = len(fields)
-    if k < 3:
-        return Interval(*np.full(3, np.nan))
-    centred = fields - fields.mean(axis=1, keepdims=True)
-    products = centred @ centred.T
-    variances = np.diag(products)
-    crossed = products.sum(axis=1) - variances
-
-    def ratio(covariance: Array, variance: Array, n: int) -> Array:
-        return covariance / (n - 1) / variance
-
-    whole = ratio(crossed.sum(), variances.sum(), k)
-    without = ratio(crossed.sum() - 2.0 * crossed, variances.sum() - variances, k - 1)
-    half = students_t(k - 1) * np.sqrt(k - 1) * without.std()
-    return Interval(whole, whole - half, whole + half)
 
 
 def cut(runs: Sequence[Run], curves: Sequence[Array]) -> tuple[Array, Array]:
@@ -330,6 +294,26 @@ def prominence(curve: Array, rank: int = 2) -> float:
     _, found = find_peaks(curve, prominence=0.0, height=_LOAD_PEAK * highest)
     prominences = np.sort(found["prominences"])
     return float(prominences[-rank]) / highest if len(prominences) >= rank else 0.0
+
+
+class Peaks(NamedTuple):
+    """Indices of the two most prominent load peaks of a force curve, and of the lowest between."""
+
+    first: int
+    valley: int
+    second: int
+
+
+def both_peaks(curve: Array) -> Peaks | None:
+    """Find the two most prominent load peaks of a force curve, (n,); None with fewer than two."""
+    from scipy.signal import peak_prominences  # slow to import, and few figures need it
+
+    peaks = load_peaks(curve, 0.0)
+    if len(peaks) < 2:
+        return None
+    prominences, *_ = peak_prominences(curve, peaks)
+    first, second = sorted(map(int, peaks[np.argsort(prominences)[-2:]]))
+    return Peaks(first, first + int(np.argmin(curve[first:second])), second)
 
 
 def events(times: Array) -> NDArray[np.intp]:

@@ -3,10 +3,9 @@
 Section 3.2 of the paper; all pillars have n_s = n_p.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
-from itertools import product
+from itertools import pairwise, product
 from operator import attrgetter
 
 import numpy as np
@@ -14,19 +13,17 @@ import numpy as np
 from springblock.analysis.correlation import Correlation, side_times
 from springblock.analysis.estimate import AnyOf, Estimate
 from springblock.analysis.lowest import Lowest, lowest
-from springblock.analysis.statistics import pillar_map, pillar_ring, repeatability
-from springblock.claims import ranges, samples, surfaces
-from springblock.claims.rule import Case, Evidence, Finding
-from springblock.claims.samples import Quantity, found_on, mean_over, over_runs, share_over
-from springblock.claims.surfaces import Mask, pillars, pillars_of
+from springblock.analysis.statistics import pillar_map, pillar_ring
+from springblock.claims import rule, samples, surfaces
+from springblock.claims.rule import Case, Evidence, Finding, tests_statement
+from springblock.claims.samples import Quantity, on_each, over_runs, share_on_each
+from springblock.claims.surfaces import Mask, case_of, pillars, pillars_of
 from springblock.io.records import Record
 from springblock.model.numbers import Array
 from springblock.model.scene import Scene
 from springblock.simulation.run import Run
 
 _OUTER = 2  #: outermost rings: the border and the blocks adjacent to it
-_BROAD = 20  #: n_p from which on the outermost rings enclose most blocks
-_PATCH = 3  #: side of the patch taken as a nucleation point, blocks
 #: Parts of a ring in the paper's order of detachment, for sliding along x.
 _RING = {"corners": "corners", "y": "edges along y", "x": "edges along x"}
 _PRECURSORS = "the share of contact blocks that detach before t_max"
@@ -35,18 +32,6 @@ _RELEVANT = 6  #: n_p from which on the paper finds precursors “numerically re
 _LARGE = 60  #: n_p of the paper's example of very large pillars
 _SCATTER = "mu_static_std"
 _COMPARED = (3, 6, 10, 20, 30)  #: n_p of pillars whose thresholds scatter less and more
-
-_broad = partial(pillars, smallest=_BROAD)
-_large = partial(pillars, smallest=_LARGE)
-
-
-def pillars_alike(evidence: Evidence) -> Iterator[Finding]:
-    name = "the share of the variance of a pillar's mean t_det explained by position (jackknife)"
-    for scene, runs in pillars(evidence.records).items():
-        times = np.array([[part.mean() for part in pillars_of(r.t_det, scene)] for r in runs])
-        if times.shape[1] >= 2:
-            by_place = Estimate.of(repeatability(times), len(times))
-            yield found_on(scene, name, by_place, ranges.ALIKE)
 
 
 def _rings(n_p: int) -> Iterator[tuple[str, dict[str, Mask]]]:
@@ -63,20 +48,26 @@ def _rings(n_p: int) -> Iterator[tuple[str, dict[str, Mask]]]:
             yield name, parts | {"centre": centre}
 
 
+def _in_order(scene: Scene, runs: Sequence[Record], case: Case) -> Iterator[Finding]:
+    """Yield the mean delay of each part of a pillar after the one before, for each ring."""
+    maps = pillar_map(runs, scene.pattern)
+    for ring, parts in _rings(scene.n_p):
+        names = [f"{name} ({ring})" for name in _RING.values()] + ["centre"]
+        times = [maps[:, mask].mean(axis=1) for mask in parts.values()]
+        for (early, before), (late, after) in pairwise(zip(names, times, strict=True)):
+            statistic = f"t_det/t_max of the {late} minus that of the {early}"
+            later = samples.mean(after - before)
+            yield Finding(case, statistic, later, rule.POSITIVE, [scene])
+
+
+@tests_statement
 def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     for scene, runs in pillars(evidence.records).items():
-        maps = pillar_map(runs, scene.pattern)
-        for ring, parts in _rings(scene.n_p):
-            names = [f"{name} ({ring})" for name in _RING.values()] + ["centre"]
-            means = [maps[:, mask].mean(axis=1) for mask in parts.values()]
-            times = dict(zip(names, means, strict=True))
-            yield from samples.in_order(scene, times)
+        yield from _in_order(scene, runs, case_of(scene))
 
 
-@share_over(
-    pillars, "the share of pillars whose parts detach in this order (mean t_det)", ranges.NEARLY_ALL
-)
-def always_in_order(run: Record) -> float:
+def in_order(run: Record) -> float:
+    """Return the share of pillars whose parts detach in the paper's order, by mean t_det."""
     rings = [list(parts.values()) for _, parts in _rings(run.scene.n_p)]
     ordered = [
         all(np.all(np.diff([pillar[part].mean() for part in parts]) > 0.0) for parts in rings)
@@ -85,134 +76,94 @@ def always_in_order(run: Record) -> float:
     return float(np.mean(ordered))
 
 
+@tests_statement
+def always_in_order(evidence: Evidence) -> Iterator[Finding]:
+    name = "the share of pillars whose parts detach in this order (mean t_det)"
+    every, claimed = pillars(evidence.records), rule.NEARLY_ALL
+    yield from share_on_each(every, name, in_order, claimed, part="single pillars")
+    for scatter, scenes in _by_scatter(evidence).items():
+        varied = {"constant": _SCATTER, "constant_value": scatter}
+        own = surfaces.own_constants(evidence.records, scenes[0])
+        for scene in (s for s in scenes if own and s.n_p >= surfaces.SMALLEST):
+            case = case_of(scene, part="mean times", **varied)
+            yield from _in_order(scene, evidence.records[scene], case)
+
+
 def early_near_border(run: Record) -> float:
     """Return the share of the blocks in the two outermost rings that detach before t_max."""
     early = np.stack(pillars_of(run.t_det < run.t_max, run.scene))
     return float(early[:, surfaces.from_edge(run.scene.n_p) < _OUTER].mean())
 
 
-def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
-    blocks = "the share of blocks on the border or adjacent to it that detach before t_max"
-    for scene, runs in pillars(evidence.records).items():
-        case = replace(surfaces.case_of(scene), part="single blocks")
-        share = samples.share(over_runs(early_near_border, runs))
-        yield found_on(scene, blocks, share, ranges.NEARLY_ALL, case=case)
-    for scene, runs in pillars(evidence.records).items():
-        case = replace(surfaces.case_of(scene), part="mean times")
-        *_, (ring, parts) = _rings(scene.n_p)
-        last = pillar_map(runs, scene.pattern)[:, parts[_RING["x"]]].mean(axis=1)
-        name = f"t_det/t_max of the edges along x ({ring})"
-        yield found_on(scene, name, samples.mean(last), (-ranges.INF, 1.0), case=case)
-
-
 def near_border(run: Record) -> float:
-    """Return the share of the precursors on the border of a pillar or adjacent to it."""
+    """Return the share of the precursors in the two outermost rings of a pillar."""
     early = np.stack(pillars_of(run.t_det < run.t_max, run.scene))
     border = surfaces.from_edge(run.scene.n_p) < _OUTER
     return samples.share_of(np.broadcast_to(border, early.shape), early)
 
 
+@tests_statement
+def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
+    blocks = "the share of blocks on the border or adjacent to it that detach before t_max"
+    every, claimed = pillars(evidence.records), rule.NEARLY_ALL
+    yield from share_on_each(every, blocks, early_near_border, claimed, part="single blocks")
+    for scene, runs in every.items():
+        *_, (ring, parts) = _rings(scene.n_p)
+        last = samples.mean(pillar_map(runs, scene.pattern)[:, parts[_RING["x"]]].mean(axis=1))
+        case, name = case_of(scene, part="mean times"), f"t_det/t_max of the edges along x ({ring})"
+        yield Finding(case, name, last, (-rule.INF, 1.0), [scene])
+
+
+@tests_statement
 def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
-    for scene, runs in pillars(evidence.records).items():
-        for what, quantity, claimed in (
-            ("on the border or adjacent to it", near_border, ranges.MOST),
-            ("isolated", samples.isolated, ranges.FEWER_THAN_HALF),
-        ):
-            name = f"the share of the blocks detached before t_max that are {what}"
-            yield found_on(scene, name, samples.share(over_runs(quantity, runs)), claimed)
+    name = "the share of the blocks detached before t_max that are"
+    where = f"{name} on the border or adjacent to it", near_border, rule.MOST
+    alone = f"{name} isolated", samples.isolated, rule.FEWER_THAN_HALF
+    for (scene, runs), one in product(pillars(evidence.records).items(), (where, alone)):
+        yield from share_on_each({scene: runs}, *one)
 
 
-def inside(run: Record) -> Array:
-    """Return t_det inside the outermost rings, (pillars, n_p - 4, n_p - 4) s."""
-    inner = slice(_OUTER, -_OUTER)
-    return np.stack([part[inner, inner] for part in pillars_of(run.t_det, run.scene)])
-
-
-@share_over(
-    _broad,
-    "the share of positions enclosed by the two outermost rings that lie further out than the "
-    f"first {_PATCH} x {_PATCH} patch to detach",
-    (-ranges.INF, 0.25),
-)
-def nucleation_near_edge(run: Record) -> float:
-    return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
-
-
-def centre_last(evidence: Evidence) -> Iterator[Finding]:
-    around = "the area between it and the two outermost rings"
-    name = f"t_det/t_max of the central part minus that of {around}"
-    for scene, runs in pillars(evidence.records, 10).items():
-        times = np.stack([(inside(run) / run.t_max).mean(axis=0) for run in runs])
-        wide = times.shape[-1]
-        middle = surfaces.from_edge(wide) >= wide // 4
-        later = samples.mean(times[:, middle].mean(axis=1) - times[:, ~middle].mean(axis=1))
-        yield found_on(scene, name, later, ranges.POSITIVE)
-
-
-@mean_over(pillars, "t_max - t_avg", ranges.POSITIVE, unit="s")
-def peak_after_average(run: Record) -> float:
-    return run.t_max - run.t_avg
-
-
-@share_over(
-    _large,
-    "the share of blocks enclosed by the two outermost rings that detach after t_max",
-    ranges.NEARLY_ALL,
-)
-def front_after_peak(run: Record) -> float:
-    return float(np.mean(inside(run) > run.t_max))
+@tests_statement
+def peak_after_average(evidence: Evidence) -> Iterator[Finding]:
+    return on_each(pillars(evidence.records), "t_max - t_avg", samples.lag, rule.POSITIVE, "s")
 
 
 def warning(run: Run) -> float:
-    """Return the time from the first detachment to t_max, over t_max.
-
-    Absolute times grow with the normal force on a block, which is larger on pillars.
-    """
+    """Return the time from the first detachment to t_max, over t_max."""
     return 1.0 - float(np.nanmin(run.t_det)) / run.t_max
 
 
+@tests_statement
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
     quantities: Mapping[str, Quantity] = {
         "(t_max - t_avg)/t_max": samples.relative_lag,
         "the share of precursors": samples.before_peak,
         _WIDTH: samples.width,
     }
+    over = "minus that on the flat surface, over this difference at larger n_p (magnitudes)"
     small = [scene for scene in pillars(evidence.records, 0) if scene.n_p < surfaces.SMALLEST]
     larger = pillars(evidence.records)
     for flat, scene, other in product(surfaces.flat(evidence.records), small, larger):
-        case = Case(n_p=scene.n_p, against_n_p=other.n_p)
+        case, source = Case(scene.n_p, other.n_p), [scene, flat, other]
         for name, quantity in quantities.items():
             three = [over_runs(quantity, evidence.records[s]) for s in (scene, flat, other)]
-            away = samples.magnitude(samples.position(*three))
-            statistic = (
-                f"{name} minus that on the flat surface, over this difference at larger n_p "
-                "(magnitudes)"
-            )
-            claimed, beside = ranges.FEWER_THAN_HALF, (flat, other)
-            yield found_on(scene, statistic, away, claimed, case=case, beside=beside)
+            away = abs(samples.position(*three))
+            yield Finding(case, f"{name} {over}", away, rule.FEWER_THAN_HALF, source)
 
 
-def _above_flat(evidence: Evidence, quantities: Mapping[str, Quantity]) -> Iterator[Finding]:
-    """Yield the excess of each quantity on pillars over that on the flat surface."""
-    flats = surfaces.flat(evidence.records)
-    for flat, scene in product(flats, pillars(evidence.records, _RELEVANT)):
-        for name, quantity in quantities.items():
-            statistic = f"{name}, minus that on the flat surface"
-            yield samples.compared(evidence, statistic, quantity, scene, flat)
-
-
+@tests_statement
 def many_precursors(evidence: Evidence) -> Iterator[Finding]:
     time = "the time between the first detachment and t_max, over t_max"
-    return _above_flat(evidence, {_PRECURSORS: samples.before_peak, time: warning})
-
-
-def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
-    return _above_flat(evidence, {f"{_WIDTH}, over t_max": samples.width})
+    flats, larger = surfaces.flat(evidence.records), pillars(evidence.records, _RELEVANT)
+    for flat, scene in product(flats, larger):
+        for name, quantity in ((_PRECURSORS, samples.before_peak), (time, warning)):
+            statistic = f"{name}, minus that on the flat surface"
+            yield samples.compared(evidence, statistic, quantity, (scene, flat))
 
 
 def _lowest(evidence: Evidence, scenes: Iterable[Scene]) -> Lowest:
     """Return the scene with the lowest mean static friction, and those that may have the lowest."""
-    return lowest({scene: samples.friction(evidence, scene) for scene in scenes})
+    return lowest({s: over_runs(samples.static_friction, evidence.records[s]) for s in scenes})
 
 
 def _of_all_sizes(evidence: Evidence) -> list[Scene]:
@@ -221,27 +172,21 @@ def _of_all_sizes(evidence: Evidence) -> list[Scene]:
     return found if len(found) >= 3 and found[0].n_p < surfaces.SMALLEST else []
 
 
+@tests_statement
 def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
     scenes = _of_all_sizes(evidence)
     # The same runs determine the size of the minimum, which overrates small differences.
     for end in (scenes[0], scenes[-1]) if scenes else ():
         best = _lowest(evidence, scenes[1:-1]).place
         name = f"static friction at n_p = {end.n_p} minus that at n_p = {best.n_p}, the lowest mean"
-        yield samples.compared(evidence, name, samples.static_friction, end, best, case=Case())
+        pair = end, best
+        yield samples.compared(evidence, name, samples.static_friction, pair, case=Case())
 
 
-def sharper_again(evidence: Evidence) -> Iterator[Finding]:
-    scenes = _of_all_sizes(evidence)
-    if scenes:
-        best, largest = _lowest(evidence, scenes[:-1]).place, scenes[-1]
-        name = f"{_WIDTH}, over t_max, at n_p = {largest.n_p} minus that at n_p = {best.n_p}"
-        narrower, case = ranges.NEGATIVE, Case()
-        yield samples.compared(evidence, name, samples.width, largest, best, narrower, case)
-
-
-@share_over(_large, _PRECURSORS, ranges.NEGLIGIBLE)
-def negligible_edges(run: Record) -> float:
-    return samples.before_peak(run)
+@tests_statement
+def negligible_edges(evidence: Evidence) -> Iterator[Finding]:
+    large = pillars(evidence.records, _LARGE)
+    return share_on_each(large, _PRECURSORS, samples.before_peak, rule.NEGLIGIBLE)
 
 
 def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
@@ -254,6 +199,7 @@ def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
     return {s: scenes for s, scenes in sorted(groups.items()) if len(scenes) == len(_COMPARED)}
 
 
+@tests_statement
 def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     found = _sizes_over_length(evidence)
     yield from sorted(found, key=attrgetter("case.fit"))  # all scatters are one case
@@ -262,67 +208,47 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
 def _sizes_over_length(evidence: Evidence) -> Iterator[Finding]:
     """Yield the size of lowest static friction over l_c for each scatter and each fit."""
     for scatter, scenes in _by_scatter(evidence).items():
-        broad = max(scenes, key=lambda s: s.n_p)
-        own = surfaces.own_constants(evidence.records, broad)
+        own = surfaces.own_constants(evidence.records, scenes[0])
         candidates = scenes if own else _of_all_sizes(evidence)
-        runs = evidence.records[broad]
         sizes = [scene.n_p for scene in _lowest(evidence, candidates).alike]
+        broad = max(scenes, key=attrgetter("n_p"))
+        runs, behind = evidence.records[broad], dict.fromkeys([*candidates, broad])
         fit = Correlation(side_times(runs, broad.pattern, surfaces.ALONG)).length()
+        where = f"l_c at n_p = {broad.n_p}, with {_SCATTER} = {scatter:g}"
         minimum = f"n_p = {' or '.join(map(str, sizes))}"
-        name = (
-            f"the size of lowest static friction ({minimum}) over l_c at n_p = {broad.n_p}, with "
-            f"{_SCATTER} = {scatter:g}"
-        )
-        for curve, fitted in ((ranges.PLAIN, fit.fitted), (ranges.SCALED, fit.tail)):
+        name = f"the size of lowest static friction ({minimum}) over {where}"
+        for curve, fitted in ((surfaces.PLAIN, fit.fitted), (surfaces.SCALED, fit.tail)):
             value, low, high = map(float, fitted)
             ratios = [Estimate(n_p / value, n_p / high, n_p / low, len(runs)) for n_p in sizes]
-            source = surfaces.in_files(*dict.fromkeys([*candidates, broad]))
-            yield Finding(Case(fit=curve), name, AnyOf.these(*ratios), ranges.COMPARABLE, source)
+            yield Finding(Case(fit=curve), name, AnyOf.these(*ratios), rule.COMPARABLE, behind)
 
 
-def _over_t_avg(quantity: Quantity) -> Quantity:
-    """Divide a time by t_avg in place of t_max.
+def _over_t_avg(quantity: Quantity, runs: Iterable[Record]) -> Array:
+    """Return a time over t_avg, (k,); t_max is the time of either of two load peaks."""
+    return over_runs(lambda run: quantity(run) * run.t_max / run.t_avg, runs)
 
-    Where there are two load peaks, t_max is that of either.
+
+@tests_statement
+def rounder_and_longer(evidence: Evidence) -> Iterator[Finding]:
+    """Compare pillars of lowest static friction with the smallest and the largest.
+
+    If several sizes may have the lowest friction, the interval encloses the differences of all; it
+    has no upper end for these sizes themselves, and where the intervals differ in sign.
     """
-    return lambda run: quantity(run) * run.t_max / run.t_avg
-
-
-def _larger_there(
-    evidence: Evidence, name: str, quantity: Quantity, every: bool = False
-) -> Iterator[Finding]:
-    """Yield a quantity where static friction is lowest minus that on other pillars.
-
-    The others are the smallest and the largest pillars, or those of `every` size. If several sizes
-    may have the lowest friction, the interval encloses those of all; it has no upper end for these
-    sizes themselves, and where the intervals differ in sign.
-    """
-    scenes = _of_all_sizes(evidence)
+    scenes, records = _of_all_sizes(evidence), evidence.records
     candidates = _lowest(evidence, scenes).alike if scenes else []
     sizes = " or ".join(str(scene.n_p) for scene in candidates)
-    there = f"{name}, at the n_p of lowest static friction ({sizes})"
-    others = scenes if every else scenes[:1] + scenes[-1:]
-    for other in (scene for scene in others if candidates != [scene]):
-        sample = over_runs(quantity, evidence.records[other])
-        there_too = [over_runs(quantity, evidence.records[s]) for s in candidates if s != other]
-        found = [samples.difference(each, sample) for each in there_too]
+    there = f"over t_avg, at the n_p of lowest static friction ({sizes}), minus that at n_p ="
+    quantities = {_WIDTH: samples.width, "the duration of the transition": samples.lasting}
+    ends = [scene for scene in scenes[:1] + scenes[-1:] if candidates != [scene]]
+    for (name, quantity), other in product(quantities.items(), ends):
+        sample = _over_t_avg(quantity, records[other])
+        others = (_over_t_avg(quantity, records[each]) for each in candidates if each != other)
+        found = [samples.difference(each, sample) for each in others]
         joint = AnyOf.these(*found)
         if other in candidates or (found[1:] and joint.ci_low <= 0.0 < joint.ci_high):
             # which candidate it is decides, not the number of realisations
-            joint = AnyOf.these(*found, replace(found[0], ci_high=ranges.INF))
-        source = surfaces.in_files(*candidates, other)
-        statistic = f"{there}, minus that at n_p = {other.n_p}"
-        yield Finding(surfaces.case_of(other), statistic, joint, ranges.POSITIVE, source)
-
-
-def most_precursors(evidence: Evidence) -> Iterator[Finding]:
-    return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
-
-
-def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
-    return _larger_there(evidence, f"{_WIDTH}, over t_avg", _over_t_avg(samples.width))
-
-
-def longest_transition(evidence: Evidence) -> Iterator[Finding]:
-    name = "the duration of the transition, over t_avg"
-    return _larger_there(evidence, name, _over_t_avg(samples.lasting))
+            joint = AnyOf.these(*found, replace(found[0], ci_high=rule.INF))
+        case = case_of(other, part=name.removeprefix("the "))
+        statistic, behind = f"{name}, {there} {other.n_p}", [*candidates, other]
+        yield Finding(case, statistic, joint, rule.POSITIVE, behind)

@@ -5,12 +5,11 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
 from operator import attrgetter
-from typing import NamedTuple
+from typing import Any
 
 from springblock.analysis.estimate import Estimate
 from springblock.io.records import Record
-from springblock.io.rows import Row, anchor
-from springblock.model.numbers import Array
+from springblock.io.rows import Row
 from springblock.model.scene import Scene
 
 Records = Mapping[Scene, Sequence[Record]]  #: realisations
@@ -18,7 +17,18 @@ RowsByScene = Mapping[Scene, Sequence[Row]]  #: of a table
 Range = tuple[float, float]
 
 ENOUGH = 20  #: realisations that a surface needs to be tested
+# Open ranges in which statements place a statistic. A word of the paper is one number throughout.
+INF = float("inf")
+POSITIVE, NEGATIVE = (0.0, INF), (-INF, 0.0)
+NEARLY_ALL = (0.9, INF)  #: "all" and "none"
+MOST, FEWER_THAN_HALF = (0.5, INF), (-INF, 0.5)
+NEGLIGIBLE = (-INF, 0.1)
+COMPARABLE = (0.5, 2.0)  #: a ratio
 _WORST_FIRST = ("fails", "open", "holds")
+
+
+def _of_case(unit: str, meaning: str) -> Any:
+    return field(default=None, metadata={"unit": unit, "meaning": meaning})
 
 
 @dataclass(frozen=True)
@@ -28,19 +38,18 @@ class Case:
     Each field is a column of the table `claims`.
     """
 
-    n_p: int | None = None
-    against_n_p: int | None = None  #: of the pillars with which those of n_p are compared
-    n_p2: int | None = None
-    n_s2: int | None = None
-    n_p3: int | None = None
-    along_3: str | None = None
-    degrees: float | None = None  #: from the grooves to the sliding direction
-    side: str | None = None  #: of pillars: along "x", along "y", or along the "grooves"
-    constant: str | None = None  #: of the material
-    constant_value: float | None = None
-    integrator: str | None = None
-    fit: str | None = None  #: curve whose length is l_c
-    part: str | None = None  #: of the surface or of the statement, or reading of its words
+    n_p: int | None = _of_case("blocks", "side of a pillar")
+    against_n_p: int | None = _of_case("blocks", "side of the pillars compared with")
+    n_p2: int | None = _of_case("blocks", "width of a pawl")
+    n_s2: int | None = _of_case("blocks", "width of a groove")
+    n_p3: int | None = _of_case("blocks", "size of the parts of a pawl")
+    along_3: str | None = _of_case("x or y", "direction of the grooves of level 3")
+    degrees: float | None = _of_case("°", "angle from the grooves to the sliding direction")
+    constant: str | None = _of_case("1", "constant of the material")
+    constant_value: float | None = _of_case("SI", "its value")
+    integrator: str | None = _of_case("1", "integrator")
+    fit: str | None = _of_case("1", "curve fitted to c(r), whose length is l_c")
+    part: str | None = _of_case("1", "part of a surface, or reading of the paper's words")
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,8 +59,6 @@ class Evidence:
     records: Records = field(default_factory=dict)
     correlation: RowsByScene = field(default_factory=dict)
     correlation_length: RowsByScene = field(default_factory=dict)
-    #: Tangential force on each block before the first detachment, over its mean; NaN off contact.
-    stress: Mapping[Scene, Array] = field(default_factory=dict)
     precision: Sequence[Row] = ()  #: rows of the table `work_precision`: other, small surfaces
 
 
@@ -63,14 +70,13 @@ class Finding:
     statistic: str
     estimate: Estimate
     claimed: Range
-    rests_on: str  #: separated by "; "
+    scenes: Iterable[Scene] = ()  #: behind the value
     unit: str = "1"
 
     def outcome(self, together: int) -> str:
         """Return whether the claim "holds", "fails" or is "open", one of `together` findings.
 
-        It holds where the interval lies within the claimed range, fails where it lies wholly
-        outside, and is open otherwise or without an interval.
+        That is where the interval lies within the claimed range, wholly outside, or neither.
         """
         low, high = self.estimate.limits(together)
         lowest, highest = self.claimed
@@ -80,77 +86,44 @@ class Finding:
 
 
 Test = Callable[[Evidence], Iterable[Finding]]
+TESTS: dict[str, Test] = {}  #: by the name of their statement
+
+
+def tests_statement(test: Test) -> Test:
+    """Register a function of the evidence as the test of the statement that has its name."""
+    TESTS[test.__name__] = test
+    return test
 
 
 @dataclass(frozen=True)
 class Statement:
     """A statement of the paper, and how to test it; `statements.toml` explains its texts."""
 
-    number: int  #: on the page
     id: str
     title: str
     section: str  #: of the paper
-    figure: int  #: of the paper, to which the statement refers
-    #: universal: always, only, all, uniform, necessary, negligible, the most; existential: can;
-    #: general: all others.
-    form: str
+    figure: str  #: of the paper, to which the statement refers
+    form: str  #: universal: always, only, all, necessary, negligible; general: all others
     words: str
     criterion: str
     remark: str
     changed: str
     test: Test
 
-    @property
-    def heading(self) -> str:
-        """Heading of its part of the page."""
-        return f"{self.number}. {self.title}"
 
-    @property
-    def anchor(self) -> str:
-        """Anchor of this part."""
-        return anchor(self.heading)
+def verdict(form: str, findings: Sequence[Finding]) -> tuple[str, int, int]:
+    """Return the verdict on a statement, the number of cases that hold, and of all cases.
 
-
-class Verdict(NamedTuple):
-    """A verdict with the number of cases that hold, and of all cases."""
-
-    word: str
-    holds: int
-    cases: int
-
-
-def verdict(form: str, findings: Sequence[Finding]) -> Verdict:
-    """Judge a statement by its findings.
-
-    A case holds if all its findings hold, and fails if one fails.
-
-    - One failing case refutes a universal statement; one that holds suffices for an existential
-      one.
-    - A general statement with cases that hold and cases that fail is "reproduced in part".
-    - Without a failing case it is "not settled" while a case is open, otherwise "reproduced".
-    - It is "not reproduced" where cases fail and none holds; an existential one only if all fail,
-      otherwise it is "not settled" while a case is open.
-    - It is "not tested" without findings.
+    A case holds if all its findings hold, and fails if one fails. A case that fails refutes a
+    universal statement; a general one is "reproduced in part" if other cases hold. Without a
+    failing case, a statement is "not settled" while a case is open.
     """
     cases = [
         min((finding.outcome(len(findings)) for finding in group), key=_WORST_FIRST.index)
         for _, group in groupby(findings, key=attrgetter("case"))
     ]
-    return Verdict(_word(form, set(cases)), cases.count("holds"), len(cases))
-
-
-def _word(form: str, found: set[str]) -> str:
-    """Return the verdict from the outcomes of cases."""
-    if not found:
-        return "not tested"
-    if form == "existential" and "holds" in found:
-        return "reproduced"
-    if form == "universal" and "fails" in found:
-        return "not reproduced"
-    if {"holds", "fails"} <= found:
-        return "reproduced in part"
-    if "fails" in found and form == "general":
-        return "not reproduced"
-    if "open" in found:
-        return "not settled"
-    return "reproduced" if "holds" in found else "not reproduced"
+    found = set(cases)
+    word = "not settled" if "open" in found else "reproduced" if found else "not tested"
+    if "fails" in found:
+        word = "reproduced in part" if form == "general" and "holds" in found else "not reproduced"
+    return word, cases.count("holds"), len(cases)

@@ -2,24 +2,17 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import partial, wraps
-from itertools import pairwise
+from functools import partial
 from operator import attrgetter
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from springblock.analysis.estimate import UNKNOWN, Estimate, Proportion
-from springblock.analysis.statistics import (
-    difference_interval,
-    mean_interval,
-    proportion_interval,
-    samples_interval,
-)
-from springblock.claims import ranges, surfaces
-from springblock.claims.rule import Case, Evidence, Finding, Range, Records, Test
-from springblock.claims.surfaces import Mask
+from springblock.analysis.estimate import UNKNOWN, Estimate
+from springblock.analysis.statistics import difference_interval, mean_interval, samples_interval
+from springblock.claims.rule import POSITIVE, Case, Evidence, Finding, Range
+from springblock.claims.surfaces import Mask, case_of
 from springblock.io.records import Record
 from springblock.io.rows import Row
 from springblock.model.numbers import Array
@@ -39,11 +32,6 @@ def over_runs(quantity: Callable[[T], float], runs: Iterable[T]) -> Array:
     return values[np.isfinite(values)]
 
 
-def friction(evidence: Evidence, scene: Scene) -> Array:
-    """Return the static friction of each realisation of a scene, (k,)."""
-    return over_runs(static_friction, evidence.records[scene])
-
-
 def interval(row: Row, value: str, limits: str = "ci") -> Estimate:
     """Return a value of a row with its interval."""
     low, high = float(row[f"{limits}_low"]), float(row[f"{limits}_high"])
@@ -61,30 +49,10 @@ def share(sample: ArrayLike) -> Estimate:
     return replace(mean(sample), bounds=(0.0, 1.0))
 
 
-def proportion(flags: Array) -> Estimate:
-    """Return the proportion of flags, 0 or 1, (k,), that are 1, with its exact interval."""
-    return Proportion.of(proportion_interval(int(np.sum(flags)), len(flags)), len(flags))
-
-
 def difference(first: Array, second: Array) -> Estimate:
     """Return the difference of the means of two independent samples (Welch)."""
     fewest = min(len(first), len(second))
     return Estimate.of(difference_interval(first, second), fewest) if fewest else UNKNOWN
-
-
-def relative(first: Array, second: Array, base: Array) -> Estimate:
-    """Return the difference of two means over a third mean, whose error is neglected."""
-    apart, scale = difference(first, second), mean(base).value
-    if not scale:
-        return UNKNOWN
-    return Estimate(apart.value / scale, apart.ci_low / scale, apart.ci_high / scale, apart.n)
-
-
-def magnitude(estimate: Estimate) -> Estimate:
-    """Return the absolute value; its upper limit is that of the end further from zero."""
-    value, ends = estimate.value, (estimate.ci_low, estimate.ci_high)
-    nearer = -ends[1] if value < 0.0 else ends[0]
-    return Estimate(abs(value), nearer, float(np.max(np.abs(ends))), estimate.n)
 
 
 def position(sample: Array, zero: Array, one: Array) -> Estimate:
@@ -104,51 +72,30 @@ def position(sample: Array, zero: Array, one: Array) -> Estimate:
     return Estimate.of(samples_interval(samples, relative_place), fewest)
 
 
-def found_on(
-    scene: Scene,
+def on_each(
+    scenes: Mapping[Scene, Sequence[T]],
     statistic: str,
-    estimate: Estimate,
+    quantity: Callable[[T], float],
     claimed: Range,
     unit: str = "1",
-    case: Case | None = None,
-    beside: Iterable[Scene] = (),
-) -> Finding:
-    """Return a finding on a scene, by default with its lengths as the case."""
-    case = case or surfaces.case_of(scene)
-    return Finding(case, statistic, estimate, claimed, surfaces.in_files(scene, *beside), unit)
+    estimate: Callable[[ArrayLike], Estimate] = mean,
+    **case: Any,
+) -> Iterator[Finding]:
+    """Yield the estimate of a quantity of the realisations of each scene."""
+    for scene, runs in scenes.items():
+        found, where = estimate(over_runs(quantity, runs)), case_of(scene, **case)
+        yield Finding(where, statistic, found, claimed, [scene], unit)
 
 
-def mean_over(
-    scenes: Callable[[Records], Mapping[Scene, Sequence[T]]],
-    statistic: str,
-    claimed: Range,
-    unit: str = "1",
-    estimate: Callable[[Array], Estimate] = mean,
-) -> Callable[[Callable[[T], float]], Test]:
-    """Make a test of a quantity: its mean over the realisations of each scene."""
-
-    def made(quantity: Callable[[T], float]) -> Test:
-        @wraps(quantity)
-        def test(evidence: Evidence) -> Iterator[Finding]:
-            for scene, runs in scenes(evidence.records).items():
-                found = estimate(over_runs(quantity, runs))
-                yield found_on(scene, statistic, found, claimed, unit)
-
-        return test
-
-    return made
-
-
-share_over = partial(mean_over, estimate=share)  #: its interval stays between 0 and 1
+share_on_each = partial(on_each, estimate=share)  #: its interval stays between 0 and 1
 
 
 def compared(
     evidence: Evidence,
     statistic: str,
     quantity: Quantity,
-    first: Scene,
-    second: Scene,
-    claimed: Range = ranges.POSITIVE,
+    pair: tuple[Scene, Scene],
+    claimed: Range = POSITIVE,
     case: Case | None = None,
 ) -> Finding:
     """Return the mean of a quantity over the realisations of one scene minus that of another.
@@ -156,20 +103,13 @@ def compared(
     One surface that slides in two directions is compared seed by seed: equal seeds have equal
     friction coefficients in both.
     """
-    runs, others = evidence.records[first], evidence.records[second]
+    (first, second), (runs, others) = pair, (evidence.records[scene] for scene in pair)
     if replace(first, direction=second.direction) == second:
         there = {run.seed: quantity(run) for run in others}
         apart = mean([quantity(run) - there[run.seed] for run in runs if run.seed in there])
     else:
         apart = difference(over_runs(quantity, runs), over_runs(quantity, others))
-    return found_on(first, statistic, apart, claimed, case=case, beside=[second])
-
-
-def in_order(scene: Scene, parts: Mapping[str, Array], time: str = "t_max") -> Iterator[Finding]:
-    """Yield the delay of each part after the one before; `parts` are mean t_det/`time`, (k,)."""
-    for (early, before), (late, after) in pairwise(parts.items()):
-        statistic = f"t_det/{time} of the {late} minus that of the {early}"
-        yield found_on(scene, statistic, mean(after - before), ranges.POSITIVE)
+    return Finding(case or case_of(first), statistic, apart, claimed, pair)
 
 
 def before_peak(run: Run) -> float:
@@ -178,16 +118,14 @@ def before_peak(run: Run) -> float:
     return float(np.mean(times < run.t_max))
 
 
+def lag(run: Run) -> float:
+    """Return t_max - t_avg, s."""
+    return run.t_max - run.t_avg
+
+
 def relative_lag(run: Run) -> float:
     """Return (t_max - t_avg)/t_max."""
-    return (run.t_max - run.t_avg) / run.t_max
-
-
-def neighbours(field: Array, outside: float) -> Array:
-    """Return the values of the eight neighbours, (8, N, N), with `outside` beyond the edges."""
-    padded, (rows, columns) = np.pad(field, 1, constant_values=outside), field.shape
-    shifts = [(y, x) for y in range(3) for x in range(3) if (y, x) != (1, 1)]
-    return np.stack([padded[y : y + rows, x : x + columns] for y, x in shifts])
+    return lag(run) / run.t_max
 
 
 def width(run: Run) -> float:
@@ -203,33 +141,13 @@ def lasting(run: Run, first: float = 0.1) -> float:
 
 
 def isolated(run: Run) -> float:
-    """Return the share of the blocks detached before t_max that detach before all neighbours.
-
-    Blocks that never detach, NaN, count as later.
-    """
-    alone = np.all(~(neighbours(run.t_det, np.inf) < run.t_det), axis=0)
+    """Return the share of the blocks detached before t_max that detach before all neighbours."""
+    padded = np.pad(run.t_det, 1, constant_values=np.inf)
+    around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))  # with the block itself
+    alone = run.t_det <= np.fmin.reduce(np.fmin.reduce(around, axis=-1), axis=-1)
     return share_of(alone, run.t_det < run.t_max)
 
 
 def share_of(blocks: Mask, among: Mask) -> float:
     """Return the share of the blocks `among` that are also in `blocks`; NaN if there are none."""
     return float(blocks[among].mean()) if among.any() else float("nan")
-
-
-def rates(run: Run, width: float) -> Array:
-    """Count first detachments in a window of `width` s around each sample, (n,)."""
-    samples = max(1, round(width / (run.time[1] - run.time[0])))
-    counts: Array = np.convolve(run.detachments.astype(float), np.ones(samples), mode="same")
-    return counts
-
-
-def first_patch(times: Array, size: int) -> float:
-    """Return the depth of the `size` by `size` patch that detaches first; times (n, n) s.
-
-    The fraction of all patches that lie nearer to the edge, plus half of those equally near: least
-    at the edge, most at the centre, 1/2 on average if all positions are equally likely.
-    """
-    windows = np.lib.stride_tricks.sliding_window_view(times, (size, size)).mean(axis=(-2, -1))
-    depth = surfaces.from_edge(len(windows))
-    here = depth.flat[np.argmin(windows)]
-    return float(np.mean(depth < here) + 0.5 * np.mean(depth == here))

@@ -1,4 +1,4 @@
-"""Correlation of detachment times along the sides of pillars, sections 3.2 and 3.3.
+"""Correlation of detachment times along the sides of pillars, section 3.2.
 
 l_c is fitted over r = 1 to 6 blocks on sides of 20 blocks or more; on shorter ones the paper finds
 it difficult to estimate. The paper's c_x(r) ~ exp(-r/l_c) leaves the amplitude open, so that
@@ -6,71 +6,32 @@ statements on l_c are tested with exp(-r/l_c) and with A exp(-r/l_c).
 """
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 from functools import partial
-from itertools import product
+from itertools import pairwise, product
 
 import numpy as np
 
-from springblock.analysis.correlation import LAST, Correlation, side_times
+from springblock.analysis.correlation import LAST, Correlation, misfits, side_times
 from springblock.analysis.estimate import Estimate
-from springblock.analysis.statistics import (
-    Interval,
-    bootstrap_interval,
-    events,
-    independent_difference,
-    repeatability,
-)
-from springblock.claims import ranges, samples
-from springblock.claims.ranges import INF, PLAIN, SCALED, within
-from springblock.claims.rule import Case, Evidence, Finding, RowsByScene
-from springblock.claims.samples import found_on, interval
-from springblock.claims.surfaces import ALONG, across, case_of, in_rows, pillars, slid_both_ways
+from springblock.analysis.statistics import Interval, bootstrap_interval, events
+from springblock.claims import rule, samples
+from springblock.claims.rule import INF, Evidence, Finding, tests_statement
+from springblock.claims.samples import interval
+from springblock.claims.surfaces import ALONG, PLAIN, SCALED, case_of, pillars
 from springblock.io.rows import Row
 from springblock.model.numbers import Array
 from springblock.model.scene import Scene
 
 _DECAYED = (-INF, float(np.exp(-1.0)))
 _BROAD = 20  #: n_p from which on l_c is fitted over the same distances
-_SHORT = 10  #: n_p up to which sides are no longer than a few l_c
 #: Columns of the length and of its limits, by fit.
 _FITS = {PLAIN: ("l_c", "ci"), SCALED: ("tail", "tail")}
-_SIDES = {"x": "external sides", "grooves": "edges along the grooves"}
 
 
-def paired_difference(first: Estimate, second: Estimate) -> Estimate:
-    """Return first - second of the same runs; errors add up, as their correlation is unknown."""
-    low, high = first.ci_low - second.ci_high, first.ci_high - second.ci_low
-    return Estimate(first.value - second.value, low, high, min(first.n, second.n))
-
-
-def unpaired_difference(first: Estimate, second: Estimate) -> Estimate:
-    """Return first - second of different surfaces, with errors taken as independent.
-
-    Realisations of different surfaces with the same seeds are hardly correlated.
-    """
-    ends = (Interval(*map(np.array, (e.value, e.ci_low, e.ci_high))) for e in (first, second))
-    return Estimate.of(independent_difference(*ends), min(first.n, second.n))
-
-
-def _correlations(rows: Iterable[Row]) -> dict[tuple[str, int], Estimate]:
-    """Return c(r) by side and r."""
-    return {(row["side"], row["r"]): interval(row, "correlation") for row in rows}
-
-
-def _lengths(rows: Iterable[Row], name: str = "l_c", limits: str = "ci") -> dict[str, Estimate]:
-    """Return l_c, or the length of another column, by side, blocks."""
-    return {row["side"]: interval(row, name, limits) for row in rows}
-
-
-def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
-    name = "c_x(r = 3) - c_y(r = 3) (sum of both intervals)"
-    for scene, rows in pillars(evidence.correlation, _BROAD).items():
-        c, case = _correlations(rows), case_of(scene)
-        apart = paired_difference(c["x", 3], c["y", 3])
-        yield Finding(case, name, apart, ranges.POSITIVE, in_rows("correlation", scene, r=3))
-        source = in_rows("correlation", scene, side="y", r=1)
-        yield Finding(case, "c_y(r = 1)", c["y", 1], _DECAYED, source)
+def _length(rows: Iterable[Row], name: str, limits: str) -> Estimate:
+    """Return a length of c_x from its columns, blocks."""
+    (row,) = (row for row in rows if row["side"] == "x")
+    return interval(row, name, limits)
 
 
 def mixed(times: Array) -> Array:
@@ -92,46 +53,25 @@ def _sides_of(evidence: Evidence, scene: Scene, side: str) -> tuple[Array, Array
     return relative, mixed(relative)
 
 
-def larger_events(evidence: Evidence) -> Iterator[Finding]:
+@tests_statement
+def correlated_along(evidence: Evidence) -> Iterator[Finding]:
+    name = "c_x(r = 3) - c_y(r = 3) (sum of both intervals)"
+    for scene, rows in pillars(evidence.correlation, _BROAD).items():
+        c = {(row["side"], row["r"]): interval(row, "correlation") for row in rows}
+        apart, case = c["x", 3].minus_paired(c["y", 3]), case_of(scene, part="correlation")
+        yield Finding(case, name, apart, rule.POSITIVE, [scene])
+        yield Finding(case, "c_y(r = 1)", c["y", 1], _DECAYED, [scene])
     name = "the size of an event in excess of chance, on sides along x minus that on sides along y"
     for scene in pillars(evidence.records):
         excess = []
         for side in "xy":
             number = [events(times).mean(axis=(1, 2)) for times in _sides_of(evidence, scene, side)]
             excess.append((scene.n_p - 2) / number[0] - (scene.n_p - 2) / number[1])
-        larger = samples.mean(excess[0] - excess[1])
-        yield found_on(scene, name, larger, ranges.POSITIVE, "blocks")
+        larger, case = samples.mean(excess[0] - excess[1]), case_of(scene, part="events")
+        yield Finding(case, name, larger, rule.POSITIVE, [scene], "blocks")
 
 
-def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
-    statistic = "the share of the variance of t_det explained by position"
-    for scene, runs in pillars(evidence.records, _BROAD).items():
-        for side in "xy":
-            times = side_times(runs, scene.pattern, side)[:, 0, 0, 1:-1]  # of the first pillar
-            found = Estimate.of(repeatability(times), len(runs))
-            case = replace(case_of(scene), side=side)
-            yield found_on(scene, statistic, found, ranges.ALIKE, case=case)
-
-
-def misfits(correlation: Array, is_free: bool = True) -> list[Array]:
-    """Return the rms deviation of c(r), (b, r) from r = 1 on, from the best curve of each kind.
-
-    Exponentials, power laws and straight lines, each with a length on a grid, and with an amplitude
-    that is free or 1; (b,) each.
-    """
-    r = np.arange(1.0, correlation.shape[-1] + 1.0)
-    lengths = np.geomspace(0.1, 100.0, 200)[:, None]
-    power_law, line = (1.0 + r) ** (-1.0 / lengths), np.maximum(0.0, 1.0 - r / lengths)
-    found = []
-    for curves in (np.exp(-r / lengths), power_law, line):
-        square = np.maximum((curves**2).sum(axis=-1), np.finfo(float).tiny)
-        common = correlation @ curves.T
-        explained = common**2 / square if is_free else 2.0 * common - square
-        left = (correlation**2).sum(axis=-1) - explained.max(axis=-1)
-        found.append(np.sqrt(np.maximum(left, 0.0) / len(r)))
-    return found
-
-
+@tests_statement
 def exponential(evidence: Evidence) -> Iterator[Finding]:
     for (scene, runs), (curve, is_free) in product(
         pillars(evidence.records, _BROAD).items(), {PLAIN: False, SCALED: True}.items()
@@ -140,12 +80,12 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
         deviations = partial(_deviations, found, is_free)
         intervals = np.transpose(bootstrap_interval(deviations, len(runs)))
         names = ("", " minus that from the best power law", " minus that from the best line")
-        claims = ((-INF, 0.05), ranges.NEGATIVE, ranges.NEGATIVE)
+        claims = ((-INF, 0.05), rule.NEGATIVE, rule.NEGATIVE)
         for more, claimed, each in zip(names, claims, intervals, strict=True):
             apart = Estimate.of(Interval(*each), len(runs))
             statistic = f"the rms deviation of c_x from the best exponential{more}"
-            case = replace(case_of(scene), fit=curve)
-            yield found_on(scene, statistic, apart, claimed, case=case)
+            case = case_of(scene, fit=curve)
+            yield Finding(case, statistic, apart, claimed, [scene])
 
 
 def _deviations(found: Correlation, is_free: bool, weights: Array) -> Array:
@@ -154,71 +94,19 @@ def _deviations(found: Correlation, is_free: bool, weights: Array) -> Array:
     return np.column_stack([exponential, *(exponential - other for other in others)])
 
 
+@tests_statement
 def three_blocks(evidence: Evidence) -> Iterator[Finding]:
     for scene, rows in pillars(evidence.correlation_length, _BROAD).items():
-        source = in_rows("correlation_length", scene, side="x")
         for curve, columns in _FITS.items():
-            case, length = replace(case_of(scene), fit=curve), _lengths(rows, *columns)["x"]
-            yield Finding(case, "l_c of c_x", length, (3.0, INF), source, "blocks")
+            case, length = case_of(scene, fit=curve), _length(rows, *columns)
+            yield Finding(case, "l_c of c_x", length, (3.0, INF), [scene], "blocks")
 
 
+@tests_statement
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
-    found = pillars(evidence.correlation_length, _BROAD)
-    if len(found) < 2:
-        return
-    (small, few), *_, (large, many) = found.items()
-    name = f"l_c at n_p = {large.n_p} minus that at n_p = {small.n_p} (from both intervals)"
-    source = f"tables/correlation_length: n_p = {small.n_p} and {large.n_p}, side = x"
-    for curve, columns in _FITS.items():
-        first, last = (_lengths(rows, *columns)["x"] for rows in (few, many))
-        growth = unpaired_difference(last, first)
-        yield Finding(Case(fit=curve), name, growth, ranges.POSITIVE, source, "blocks")
-
-
-def whole_sides(evidence: Evidence) -> Iterator[Finding]:
-    name = "the share of sides along x that detach in one event, in excess of chance"
-    for scene in pillars(evidence.records):
-        if scene.n_p <= _SHORT:
-            sides = _sides_of(evidence, scene, "x")
-            once, by_chance = ((events(times) == 1).mean(axis=(1, 2)) for times in sides)
-            more = samples.mean(once - by_chance)
-            yield found_on(scene, name, more, ranges.POSITIVE)
-
-
-def _with_largest(table: RowsByScene) -> Iterator[tuple[Scene, Scene]]:
-    """Yield the grooved pillars with the most realisations, and the largest ungrooved pillars."""
-    both = [scene for scene in slid_both_ways(table) if scene.n_p >= _BROAD]
-    largest = list(pillars(table, _BROAD))[-1:]
-    if both and largest:
-        yield max(both, key=lambda scene: table[scene][0]["realisations"]), largest[0]
-
-
-def same_shape(evidence: Evidence) -> Iterator[Finding]:
-    for scene, like in _with_largest(evidence.correlation):
-        ours, theirs = (_correlations(evidence.correlation[s]) for s in (scene, like))
-        than = f"minus that at n_p = {like.n_p} without grooves (from both intervals)"
-        for side, r in product(_SIDES, range(1, LAST + 1)):
-            apart = unpaired_difference(ours[side, r], theirs["x", r])
-            source = in_rows("correlation", scene, side=side)
-            yield Finding(Case(side=side), f"c(r = {r}) {than}", apart, within(0.1), source)
-
-
-def same_length(evidence: Evidence) -> Iterator[Finding]:
-    for scene, like in _with_largest(evidence.correlation_length):
-        than = f"l_c minus that at n_p = {like.n_p} without grooves (from both intervals)"
-        for (curve, columns), side in product(_FITS.items(), _SIDES):
-            ours, theirs = (
-                _lengths(evidence.correlation_length[each], *columns) for each in (scene, like)
-            )
-            apart = unpaired_difference(ours[side], theirs["x"])
-            source = in_rows("correlation_length", scene, side=side)
-            case = Case(fit=curve, side=side)
-            yield Finding(case, than, apart, within(1.0), source, "blocks")
-
-
-def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
-    for scene, (side, name) in product(slid_both_ways(evidence.correlation), _SIDES.items()):
-        found = _correlations(evidence.correlation[across(scene)])[side, 1]
-        statistic = f"c(r = 1) on {name} when sliding across the grooves"
-        source = in_rows("correlation", across(scene), side=side, r=1)
-        yield Finding(case_of(scene), statistic, found, _DECAYED, source)
+    name = "l_c minus that on the next smaller pillars (from both intervals)"
+    found = pillars(evidence.correlation_length, _BROAD).items()
+    for ((small, few), (large, many)), (curve, columns) in product(pairwise(found), _FITS.items()):
+        growth = _length(many, *columns) - _length(few, *columns)
+        case = case_of(large, against_n_p=small.n_p, fit=curve)
+        yield Finding(case, name, growth, rule.POSITIVE, [small, large], "blocks")

@@ -13,8 +13,6 @@ from springblock.claims import STATEMENTS
 from springblock.claims.rule import Case, Statement
 from springblock.io.rows import Row
 
-_VERDICTS = ("reproduced", "reproduced in part", "not reproduced", "not settled", "not tested")
-_CASE = [field.name for field in fields(Case)]
 _SHOWN = {"1": ("", 1.0), "s": (" µs", 1e6)}  #: units that pages show otherwise
 
 
@@ -28,27 +26,9 @@ class Judged:
 
     statement: Statement
     rows: Sequence[Row]
-
-    @property
-    def verdict(self) -> str:
-        """Verdict on the statement."""
-        return str(self.rows[0]["verdict"])
-
-    @property
-    def holds(self) -> int:
-        """Number of cases that hold."""
-        return int(self.rows[0]["holds"])
-
-    @property
-    def cases(self) -> int:
-        """Number of all cases."""
-        return int(self.rows[0]["cases"])
-
-    @property
-    def statistic(self) -> str:
-        """Statistic of all its findings; "" if they differ."""
-        first, *others = {row["statistic"] for row in self.rows}
-        return "" if others else str(first)
+    verdict: str
+    holds: int  #: cases
+    cases: int
 
     @property
     def deciding(self) -> Row | None:
@@ -56,66 +36,49 @@ class Judged:
 
         That is the one with the smallest margin, the clearest failure, or the first open one.
         """
-        if self.verdict == "not tested":
-            return None
-        kind, choose, key = {
-            "reproduced": ("holds", min, _clearness),
-            "reproduced in part": ("fails", max, _clearness),
-            "not reproduced": ("fails", max, _clearness),
-            "not settled": ("open", min, lambda _: (0.0, 0.0)),  # the first
-        }[self.verdict]
-        return choose((row for row in self.rows if row["outcome"] == kind), key=key)
+        outcomes = {"reproduced": "holds", "not settled": "open", "not tested": ""}
+        outcome = outcomes.get(self.verdict, "fails")
+        rows = [row for row in self.rows if row["outcome"] == outcome]
+        if outcome == "open":
+            return rows[0]
+        return (max if outcome == "fails" else min)(rows, key=_clearness, default=None)
 
     @property
     def table(self) -> tuple[list[str], list[tuple[str, ...]]]:
         """Header and lines of the table of findings, without columns that are empty."""
-        columns = {name: [row["case"].get(name, "") for row in self.rows] for name in _CASE}
-        if not self.statistic:
-            columns["statistic"] = [row["statistic"] for row in self.rows]
-        columns["value"] = [row["shown"] for row in self.rows]
-        columns |= {name: [row[name] for row in self.rows] for name in ("claimed", "outcome")}
+        shown = {"statistic": "statistic", "value": "shown", "claimed": "claimed"}
+        columns = {f.name: [row["case"].get(f.name, "") for row in self.rows] for f in fields(Case)}
+        columns |= {name: [row[key] for row in self.rows] for name, key in shown.items()}
+        columns["outcome"] = [row["outcome"] for row in self.rows]
         filled = {name: cells for name, cells in columns.items() if any(cells)}
         return list(filled), list(zip(*filled.values(), strict=True))
 
 
 def judged(table: Iterable[Row]) -> list[Judged]:
     """Return the statements of the table `claims` with their rows, in the order of the table."""
-    known = {each.id: each for each in STATEMENTS}
-    parts = groupby(table, key=itemgetter("id"))
-    return [Judged(known[name], [_with_texts(row) for row in rows]) for name, rows in parts]
-
-
-def counted(parts: Iterable[Judged]) -> dict[str, int]:
-    """Count the verdicts that occur, from reproduced to not tested."""
-    found = Counter(part.verdict for part in parts)
-    return {verdict: found[verdict] for verdict in _VERDICTS if found[verdict]}
+    known, found = {each.id: each for each in STATEMENTS}, []
+    for name, group in groupby(table, key=itemgetter("id")):
+        rows = [_with_texts(row) for row in group]
+        same = (rows[0][key] for key in ("verdict", "holds", "cases"))
+        found.append(Judged(known[name], rows, *same))
+    return found
 
 
 def values(table: Iterable[Row]) -> dict[str, Any]:
-    """Return the values of the page `claims.md`."""
+    """Return the values of the page `claims.md`: the statements, and their verdicts counted."""
     parts = judged(table)
-    by_mark = {
-        "registered": [part for part in parts if not part.statement.changed],
-        "changed": [part for part in parts if part.statement.changed],
-        "all": parts,
-    }
-    counts = {mark: counted(some) for mark, some in by_mark.items()}
-    return {
-        "parts": parts,
-        "counts": counts,
-        "title": {each.id: f"“{each.title}”" for each in STATEMENTS},
-    }
+    counts: dict[str, Counter[str]] = {"registered": Counter(), "changed": Counter()}
+    for part in parts:
+        counts["changed" if part.statement.changed else "registered"][part.verdict] += 1
+    return {"parts": parts, "counts": counts | {"all": counts["registered"] + counts["changed"]}}
 
 
 def _with_texts(row: Row) -> Row:
     unit, factor = _SHOWN.get(row["unit"], (f" {row['unit']}", 1.0))
     interval = Interval(row["value"], row["together_low"], row["together_high"])
-    texts = {"shown": number(interval, unit, factor), "claimed": _range(row)}
-    return row | texts | {"case": {key: _text(row[key]) for key in _CASE if row[key] is not None}}
-
-
-def _text(value: str | float) -> str:
-    return value if isinstance(value, str) else f"{value:g}"
+    known = {f.name: row[f.name] for f in fields(Case) if row[f.name] is not None}
+    case = {key: value if isinstance(value, str) else f"{value:g}" for key, value in known.items()}
+    return row | {"shown": number(interval, unit, factor), "claimed": _range(row), "case": case}
 
 
 def _range(row: Row) -> str:
@@ -132,9 +95,7 @@ def _clearness(row: Row) -> tuple[float, float]:
     """
     value, low, high = row["value"], row["together_low"], row["together_high"]
     ways = []
-    for limit in (row["claimed_low"], row["claimed_high"]):
-        if math.isfinite(limit):
-            arm = value - low if limit < value else high - value
-            margin = abs(value - limit)
-            ways.append((margin / arm if arm > 0.0 else math.inf, margin))
+    for limit in filter(math.isfinite, (row["claimed_low"], row["claimed_high"])):
+        arm, margin = value - low if limit < value else high - value, abs(value - limit)
+        ways.append((margin / arm if arm > 0.0 else math.inf, margin))
     return min(ways)

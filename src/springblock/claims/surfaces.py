@@ -16,6 +16,7 @@ Mask = NDArray[np.bool_]
 
 SMALLEST = 4  #: n_p of the smallest pillars with a stress distribution of their own, section 3.2
 ALONG = "x"  #: the paper's sliding direction
+PLAIN, SCALED = "exp(-r/l_c)", "A exp(-r/l_c)"  #: curves fitted to c_x(r)
 
 
 def own_constants(table: Iterable[Scene], scene: Scene) -> dict[str, Any]:
@@ -58,28 +59,15 @@ def slid_both_ways(table: Mapping[Scene, T], level: int = 2) -> dict[Scene, T]:
     return {s: found for s, found in grooved(table, level).items() if across(s) in table}
 
 
-def case_of(scene: Scene) -> Case:
-    """Return the case of a surface: the lengths of its pillars and pawls."""
+def case_of(scene: Scene, **more: Any) -> Case:
+    """Return the case of a surface: the lengths of its pillars and pawls, and what else differs."""
     names = ("n_p", "n_p2", "n_s2", "n_p3", "along_3")
-    return Case(**{name: getattr(scene, name) or None for name in names})
-
-
-def in_files(*scenes: Scene, folder: str = "realisations") -> str:
-    """Name the folders that hold the realisations, or the preludes, of these scenes."""
-    return "; ".join(f"{folder}/{scene.folder}" for scene in scenes)
-
-
-def in_rows(table: str, scene: Scene, **more: str | int) -> str:
-    """Name rows of a table of correlations of this scene."""
-    along = {"along_3": scene.along_3} if scene.along_3 else {}
-    keys = {"N": scene.n_blocks, **scene.lengths, **along, "direction": scene.direction, **more}
-    return f"tables/{table}: {', '.join(f'{key} = {value}' for key, value in keys.items())}"
+    return Case(**{name: getattr(scene, name) or None for name in names} | more)
 
 
 def pillars_of(field: NDArray[Any], scene: Scene) -> list[NDArray[Any]]:
     """Return the parts of a field over the surface, (N, N), on each pillar, (n_p, n_p)."""
-    size = scene.n_p
-    return [field[y : y + size, x : x + size] for y, x in scene.pattern.origins]
+    return [field[y : y + scene.n_p, x : x + scene.n_p] for y, x in scene.pattern.origins]
 
 
 def from_edge(size: int) -> NDArray[np.intp]:
@@ -88,31 +76,8 @@ def from_edge(size: int) -> NDArray[np.intp]:
     return np.minimum.outer(from_end, from_end)
 
 
-def edge(contact: Mask) -> Mask:
-    """Return the contact blocks with one of four neighbours out of contact.
-
-    The border of the surface is no edge: the layer ends there, and nothing pulls on its blocks.
-    """
-    return contact & ~core(contact)
-
-
 def core(contact: Mask) -> Mask:
-    """Return the contact blocks that do not belong to the edge."""
+    """Return the contact blocks beside contact blocks alone; the surface's border is no edge."""
     from scipy.ndimage import binary_erosion  # slow to import
 
     return np.asarray(binary_erosion(contact, border_value=1))
-
-
-def grooved_parts(scene: Scene) -> dict[str, Mask]:
-    """Return masks over a grooved pillar, [y_p, x_p], of its parts in the paper's order."""
-    contact, edges = (pillars_of(each, scene)[0] for each in (scene.contact, edge(scene.contact)))
-    (rows, columns), size = np.indices(contact.shape), scene.n_p
-    transverse = contact & ((columns == 0) | (columns == size - 1))
-    external = contact & ~transverse & ((rows == 0) | (rows == size - 1))
-    internal = edges & ~transverse & ~external
-    return {
-        "transverse sides": transverse,
-        "external longitudinal sides": external,
-        "sides along the grooves": internal,
-        "inside of the pawls": contact & ~edges,
-    }

@@ -1,44 +1,23 @@
 """The table `claims`: one row per finding."""
 
 from collections.abc import Iterable
-from dataclasses import asdict
+from dataclasses import asdict, fields
+from typing import get_args
 
 import numpy as np
 import pyarrow as pa
 
 from springblock.analysis.estimate import UNKNOWN
-from springblock.claims.rule import (
-    ENOUGH,
-    Case,
-    Evidence,
-    Finding,
-    RowsByScene,
-    Statement,
-    verdict,
-)
-from springblock.claims.stress import elastic_forces
+from springblock.claims.rule import ENOUGH, Case, Evidence, Finding, RowsByScene, Statement, verdict
 from springblock.io.records import Record, by_scene
 from springblock.io.rows import Row, scene_of
 from springblock.io.schemas import column, numbers, texts
 
+_TYPES = {int: pa.int32(), str: pa.string(), float: pa.float64()}
 #: Columns that tell the cases of a statement apart, null where they do not.
-CASE = [
-    field.with_nullable(True)
-    for field in (
-        column("n_p", pa.int32(), "blocks", "side of a pillar"),
-        column("against_n_p", pa.int32(), "blocks", "side of the pillars compared with"),
-        column("n_p2", pa.int32(), "blocks", "width of a pawl"),
-        column("n_s2", pa.int32(), "blocks", "width of a groove"),
-        column("n_p3", pa.int32(), "blocks", "size of the parts of a pawl"),
-        column("along_3", pa.string(), "x or y", "direction of the grooves of level 3"),
-        column("degrees", pa.float64(), "°", "angle from the grooves to the sliding direction"),
-        column("side", pa.string(), "1", "sides of pillars: along x or y, or the grooves"),
-        column("constant", pa.string(), "1", "constant of the material"),
-        column("constant_value", pa.float64(), "SI", "its value"),
-        column("integrator", pa.string(), "1", "integrator"),
-        column("fit", pa.string(), "1", "curve fitted to c(r), whose length is l_c"),
-        column("part", pa.string(), "1", "part of a surface, or reading of the paper's words"),
-    )
+_CASE = [
+    column(each.name, _TYPES[get_args(each.type)[0]], **each.metadata).with_nullable(True)
+    for each in fields(Case)
 ]
 SCHEMA = pa.schema(
     [
@@ -46,37 +25,28 @@ SCHEMA = pa.schema(
             id="name of the statement in the code",
             claim="title of the statement",
             section="section of the paper",
-            form="universal, general or existential",
+            form="universal or general",
         ),
-        *CASE,
-        *texts(
-            statistic="definition of the value",
-            unit="unit of the numbers from value to claimed_high",
-        ),
+        *_CASE,
+        *texts(statistic="definition of the value", unit="unit of value to claimed_high"),
         *numbers(
             "see unit",
             value="the statistic; NaN if not tested",
             ci_low="lower limit of its 95 % interval",
             ci_high="upper limit",
-            together_low="lower limit of the 95 % interval simultaneous with those of the "
-            "statement's other rows (Bonferroni)",
+            together_low="lower limit simultaneous with the statement's other rows (Bonferroni)",
             together_high="upper limit",
             claimed_low="lower limit of the claimed range",
             claimed_high="upper limit",
         ),
         column("realisations", pa.int32(), "1", "number of realisations; 0: exact"),
-        *texts(
-            outcome="of this row: holds, fails or open",
-            verdict="verdict on the statement, from all its rows",
-        ),
+        *texts(outcome="holds, fails or open", verdict="on the statement, from all its rows"),
         column("holds", pa.int32(), "1", "cases of the statement that hold"),
         column("cases", pa.int32(), "1", "all its cases; 0 if not tested"),
-        *texts(
-            rests_on="files, scenes and rows behind the value, separated by ';'",
-        ),
+        *texts(rests_on="scenes behind the value, with whose names their folders begin"),
     ]
 )
-_MISSING = Finding(Case(), "", UNKNOWN, (np.nan, np.nan), "")
+_MISSING = Finding(Case(), "", UNKNOWN, (np.nan, np.nan))
 
 
 def rows(statements: Iterable[Statement], evidence: Evidence) -> list[Row]:
@@ -93,21 +63,13 @@ def rows(statements: Iterable[Statement], evidence: Evidence) -> list[Row]:
 
 def _measured(finding: Finding, together: int) -> Row:
     """Return the columns of one finding of several `together`."""
-    estimate, (low, high) = finding.estimate, finding.estimate.limits(together)
-    return asdict(finding.case) | {
-        "statistic": finding.statistic,
-        "unit": finding.unit,
-        "value": estimate.value,
-        "ci_low": estimate.ci_low,
-        "ci_high": estimate.ci_high,
-        "together_low": low,
-        "together_high": high,
-        "claimed_low": finding.claimed[0],
-        "claimed_high": finding.claimed[1],
-        "realisations": estimate.n,
-        "outcome": finding.outcome(together),
-        "rests_on": finding.rests_on,
-    }
+    estimate, names = finding.estimate, ("value", "ci_low", "ci_high")
+    row = asdict(finding.case) | {name: getattr(estimate, name) for name in names}
+    row |= {"statistic": finding.statistic, "unit": finding.unit}
+    row["rests_on"] = "; ".join(scene.folder for scene in finding.scenes)
+    row["together_low"], row["together_high"] = estimate.limits(together)
+    row["claimed_low"], row["claimed_high"] = finding.claimed
+    return row | {"realisations": estimate.n, "outcome": finding.outcome(together)}
 
 
 def gathered(records: Iterable[Record], **tables: Iterable[Row]) -> Evidence:
@@ -126,9 +88,4 @@ def gathered(records: Iterable[Record], **tables: Iterable[Row]) -> Evidence:
             for scene, rows in rows_of.items()
             if scene in tested and scene.constants == usual
         }
-    stress = {
-        scene: elastic_forces(scene, runs[0].material)
-        for scene, runs in found.items()
-        if scene.level and scene.constants == usual and scene.direction in ("x", "y")
-    }
-    return Evidence(tested, **by_name, stress=stress, precision=list(tables["precision"]))
+    return Evidence(tested, **by_name, precision=list(tables["precision"]))

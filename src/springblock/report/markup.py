@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Collection, Sequence
-from itertools import pairwise
 from typing import Any, NamedTuple
 
 import pyarrow as pa
@@ -18,13 +17,8 @@ _SYMBOL = re.compile(
     r"(?<![^\W\d])(mu|[A-Za-zμγσω])_(max|min|avg|det|int|[a-z][23]?|0)(?![a-zA-Z0-9_]|-\w)"
 )
 _ANCHOR = re.compile(r"&lt;a id=&#34;([\w-]+)&#34;&gt;&lt;/a&gt;")
-#: Line that opens or closes a folded part, the only other HTML in a page of the study.
-_FOLD = re.compile(r"<details><summary>([^<>]*)</summary>|</details>")
 _PAGE = re.compile(r"(?:docs/|\.\./)?(\w+)\.md")
-_CHAPTER = ("heading_open", "h2")  #: token that begins a chapter
-_FOLDED, _END = Markup("<details><summary>{}</summary>"), Markup("</details>")
 _SHORT, _LONG = 30, 80  #: characters of a cell that stay on one line, or need a wide one
-_MANY = 20  #: chapters from which on the numbered ones are folded
 
 
 class Page(NamedTuple):
@@ -54,7 +48,7 @@ def rendered(name: str, markdown: str, pages: Collection[str] = ()) -> Page:
     """Read a page: its title is its first heading, or else its name.
 
     Headings, and links to them, are marked with its name; links to `pages` lead to these. HTML is
-    shown as text, except <details> and the anchors of a glossary.
+    shown as text, except the anchors of a glossary.
     """
     parser = MarkdownIt("commonmark", {"html": False}).enable("table")
     parser.add_render_rule("table_open", lambda *_: '<div class="table" tabindex="0"><table>\n')
@@ -64,21 +58,8 @@ def rendered(name: str, markdown: str, pages: Collection[str] = ()) -> Page:
     if tokens and tokens[0].tag == "h1":
         title, tokens = tokens[1].content, tokens[3:]
     _mark(name, tokens, pages)
-    _fold(tokens)
-
-    def html(part: Sequence[Token]) -> Markup:
-        text = parser.renderer.render(part, parser.options, {})
-        return Markup(_ANCHOR.sub(rf'<span id="{name}-\1"></span>', text))
-
-    starts = [i for i, token in enumerate(tokens) if (token.type, token.tag) == _CHAPTER]
-    opening, *chapters = (tokens[i:j] for i, j in pairwise([0, *starts, len(tokens)]))
-    body = html(opening)
-    for chapter in chapters:
-        heading, rest = html(chapter[:3]), html(chapter[3:])
-        if len(chapters) > _MANY and chapter[1].content[:1].isdigit():
-            heading, rest = _FOLDED.format(heading), rest + _END
-        body += heading + rest
-    return Page(title, body)
+    html = parser.renderer.render(tokens, parser.options, {})
+    return Page(title, Markup(_ANCHOR.sub(rf'<span id="{name}-\1"></span>', html)))
 
 
 def _formula(found: re.Match[str]) -> str:
@@ -115,17 +96,6 @@ def _link(name: str, token: Token, pages: Collection[str]) -> None:
         token.attrSet("href", f"#{name}-{heading}")
     elif page and token.type == "link_open":
         del token.attrs["href"]  # a page of the documentation that the report lacks
-
-
-def _fold(tokens: list[Token]) -> None:
-    """Turn paragraphs that open or close a folded part into HTML."""
-    for i, token in enumerate(tokens):
-        found = _FOLD.fullmatch(token.content) if token.type == "inline" else None
-        if found and tokens[i - 1].type == "paragraph_open":
-            text = _END if found[1] is None else _FOLDED.format(typeset(found[1]))
-            tokens[i - 1 : i + 2] = [
-                Token("html_block", "", 0, content=part) for part in (str(text), " ", " ")
-            ]
 
 
 def _width(content: str) -> str:

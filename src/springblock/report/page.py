@@ -14,7 +14,7 @@ from markupsafe import Markup
 
 from springblock.analysis.ensembles import Ensemble, constants, ensembles
 from springblock.analysis.means import UNITS, changes_from_first, in_words, means
-from springblock.claims import STATEMENTS
+from springblock.claims.summary import judged
 from springblock.io.parquet import load, origin_of
 from springblock.io.rows import Row, alike
 from springblock.model.material import Material
@@ -96,10 +96,9 @@ def _of_study(
     figures: Figures, pages: Mapping[str, markup.Page], claims: Iterable[Row]
 ) -> dict[str, Any]:
     """Return findings of the full study, and verdicts and parts of the page of a study."""
-    found = {row["id"]: row for row in claims}
     return {
         "findings": markup.rendered("findings", FILE.read_text("utf-8"), pages).body,
-        "statements": [(each, found[each.id]) for each in STATEMENTS if each.id in found],
+        "statements": judged(claims),
         "in_text": {
             place: [figures[name] for name in names if name in figures]
             for place, names in IN_TEXT.items()
