@@ -41,7 +41,11 @@ def _map(meaning: str, kind: str) -> Any:
         found: BlockMap = getattr(BlockMap, kind)(Path(file))
         return found
 
-    said = {"unit": "name", "meaning": f"{meaning}; '' without one", "read": read}
+    said = {
+        "unit": "name",
+        "meaning": f"file of the {meaning}, in tables its name and digest; '' without one",
+        "read": read,
+    }
     return field(default=None, metadata=said)
 
 
@@ -59,7 +63,7 @@ class Geometry:
     replace those that are drawn.
     """
 
-    n_blocks: int = _blocks("side N of the surface along x; not needed with a mask")
+    n_blocks: int = _blocks("side N of the surface along x; that of the mask, if there is one")
     n_p: int = _blocks("side of a pillar; 0 without pillars")
     n_s: int = _blocks("distance between pillars; 0 without pillars")
     n_p2: int = _blocks("width of a pawl; 0 without grooves")
@@ -69,10 +73,10 @@ class Geometry:
     direction: str = word("x", "sliding direction: x, y or degrees from x", read=normalised)
     along_3: str = word("", "direction of the grooves of level 3, by default y", ("", "x", "y"))
     n_rows: int = _blocks("side of the surface along y; by default N")
-    edges: str = word("free", "edges of the surface", ("free", "periodic"))
-    mask: BlockMap | None = _map("contact mask, an image or array", "mask")  # noqa: RUF009 - fields
-    mu_static_field: BlockMap | None = _map("array of static coefficients", "coefficients")  # noqa: RUF009
-    mu_dynamic_field: BlockMap | None = _map("array of dynamic coefficients", "coefficients")  # noqa: RUF009
+    edges: str = word("free", "edges of the surface: free or periodic", ("free", "periodic"))
+    mask: BlockMap | None = _map("contact mask", "mask")  # noqa: RUF009 - fields
+    mu_static_field: BlockMap | None = _map("static coefficients", "coefficients")  # noqa: RUF009
+    mu_dynamic_field: BlockMap | None = _map("dynamic coefficients", "coefficients")  # noqa: RUF009
 
     def __post_init__(self) -> None:
         self._set(direction=normalised(self.direction))
@@ -196,7 +200,7 @@ class Scene(Material, Geometry):
         files do not fit.
     """
 
-    integrator: str = word(INTEGRATOR, "time integrator", INTEGRATORS)
+    integrator: str = word(INTEGRATOR, f"time integrator: {' or '.join(INTEGRATORS)}", INTEGRATORS)
     step: float = number(STEP, "s", "integration step h")
     sample_interval: float = number(
         0.0, "s", "time between samples of the force, by default 2e-7 s or less", may_vanish=True
