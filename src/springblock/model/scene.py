@@ -246,13 +246,17 @@ class Scene(Material, Geometry):
 
     @property
     def given(self) -> Row:
-        """Values that differ from the defaults and do not follow from others, by name."""
+        """Values that differ from the defaults and do not follow from others, by name.
+
+        Those of constants of a law from a file come last.
+        """
         usual: Row = {each.name: each.default for each in fields(self)}
         usual |= {"n_rows": self.n_blocks, "sample_interval": self.usual_interval(self.step)}
         if self.mask:
             usual |= {"n_blocks": self.n_blocks, "n_rows": self.n_rows}
-        values = ((name, getattr(self, name)) for name in usual)
-        return {name: value for name, value in values if value != usual[name]}
+        values = {name: getattr(self, name) for name in usual}
+        own = dict(self.law.given) if isinstance(self.law, LawFile) else {}
+        return {name: value for name, value in values.items() if value != usual[name]} | own
 
     @property
     def options(self) -> str:
@@ -260,10 +264,10 @@ class Scene(Material, Geometry):
         told = []
         for name, value in self.given.items():
             text = ",".join(map(str, value)) if isinstance(value, tuple) else value
-            file = getattr(value, "file", None)
-            told.append(f"--{name.replace('_', '-')} {quote(str(file or text))}")
-        own = self.law.given if isinstance(self.law, LawFile) else ()
-        return " ".join([*told, *(f"--constant {quote(f'{k}={v}')}" for k, v in own)])
+            text = quote(str(getattr(value, "file", None) or text))
+            option = f"--{name.replace('_', '-')} {text}" if name in FIELDS else ""
+            told.append(option or f"--constant {name}={text}")
+        return " ".join(told)
 
     @property
     def files(self) -> list[str]:
@@ -276,7 +280,8 @@ class Scene(Material, Geometry):
         """Readable part of the name of the folder of its realisations, as pillars-6-6-x."""
         kind = ("flat", "pillars" if self.n_p else "grooves", "grooves", "hierarchy")[self.level]
         along = [self.along_3] if self.along_3 else []
-        own = chain.from_iterable(each for each in self.given.items() if each[0] in CONSTANTS)
+        others = FIELDS.keys() - set(CONSTANTS)
+        own = chain.from_iterable(each for each in self.given.items() if each[0] not in others)
         parts = self.mask or kind, *self.lengths.values(), *along, self.direction, *own
         return "-".join(map(str, parts)).encode()[:_LONGEST].decode(errors="ignore")
 
