@@ -56,4 +56,4 @@ def test_a_surface_is_shown(springblock, tmp_path):
     springblock("show", *surface, "--output", tmp_path / "surface.svg")
     text = (tmp_path / "surface.svg").read_text(encoding="utf-8")
     assert "64 of 144 blocks in contact, 44.4 %" in text
-    assert "n_blocks = 12, level = 1, n_p = 4, n_s = 2, direction = 30" in text
+    assert "n_blocks = 12, n_p = 4, n_s = 2, direction = 30" in text

@@ -68,7 +68,7 @@ def _type_of(each: Field[Any]) -> Type:
     if choices := each.metadata.get("choices"):
         return click.Choice([*filter(None, choices)])
     if "read" in each.metadata:
-        return Read("text" if each.type is str else "file", each.metadata["read"])
+        return Read({"name": "file"}.get(each.metadata["unit"], "text"), each.metadata["read"])
     return click.INT if each.type is int else click.FLOAT
 
 
@@ -127,13 +127,11 @@ def _fields_as_options(
 
 
 def _option(each: Field[Any], type_of: Callable[[Field[Any]], Type]) -> Any:
-    unit = "" if each.metadata["unit"] in ("1", "name") else f" ({each.metadata['unit']})"
-    meaning = each.metadata["meaning"]
+    unit, meaning = each.metadata["unit"], each.metadata["meaning"]
+    told = meaning[0].upper() + meaning[1:] + ("" if unit in ("1", "name") else f" ({unit})")
+    usual = f"  [default: {each.default}]" if each.default else ""
     return click.option(
-        f"--{each.name.replace('_', '-')}",
-        type=type_of(each),
-        help=f"{meaning[0].upper()}{meaning[1:]}{unit}.",
-        show_default=str(each.default or "") or False,
+        f"--{each.name.replace('_', '-')}", type=type_of(each), help=f"{told}.{usual}"
     )
 
 

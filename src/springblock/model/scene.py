@@ -41,7 +41,11 @@ def _map(meaning: str, kind: str) -> Any:
         found: BlockMap = getattr(BlockMap, kind)(Path(file))
         return found
 
-    said = {"unit": "name", "meaning": f"{meaning}; '' without one", "read": read}
+    said = {
+        "unit": "name",
+        "meaning": f"file of the {meaning}, in tables its name and digest; '' without one",
+        "read": read,
+    }
     return field(default=None, metadata=said)
 
 
@@ -59,7 +63,7 @@ class Geometry:
     replace those that are drawn.
     """
 
-    n_blocks: int = _blocks("side N of the surface along x; not needed with a mask")
+    n_blocks: int = _blocks("side N of the surface along x; that of the mask, if there is one")
     n_p: int = _blocks("side of a pillar; 0 without pillars")
     n_s: int = _blocks("distance between pillars; 0 without pillars")
     n_p2: int = _blocks("width of a pawl; 0 without grooves")
@@ -69,10 +73,10 @@ class Geometry:
     direction: str = word("x", "sliding direction: x, y or degrees from x", read=normalised)
     along_3: str = word("", "direction of the grooves of level 3, by default y", ("", "x", "y"))
     n_rows: int = _blocks("side of the surface along y; by default N")
-    edges: str = word("free", "edges of the surface", ("free", "periodic"))
-    mask: BlockMap | None = _map("contact mask, an image or array", "mask")  # noqa: RUF009 - fields
-    mu_static_field: BlockMap | None = _map("array of static coefficients", "coefficients")  # noqa: RUF009
-    mu_dynamic_field: BlockMap | None = _map("array of dynamic coefficients", "coefficients")  # noqa: RUF009
+    edges: str = word("free", "edges of the surface: free or periodic", ("free", "periodic"))
+    mask: BlockMap | None = _map("contact mask", "mask")  # noqa: RUF009 - fields
+    mu_static_field: BlockMap | None = _map("static coefficients", "coefficients")  # noqa: RUF009
+    mu_dynamic_field: BlockMap | None = _map("dynamic coefficients", "coefficients")  # noqa: RUF009
 
     def __post_init__(self) -> None:
         self._set(direction=normalised(self.direction))
@@ -196,7 +200,7 @@ class Scene(Material, Geometry):
         files do not fit.
     """
 
-    integrator: str = word(INTEGRATOR, "time integrator", INTEGRATORS)
+    integrator: str = word(INTEGRATOR, f"time integrator: {' or '.join(INTEGRATORS)}", INTEGRATORS)
     step: float = number(STEP, "s", "integration step h")
     sample_interval: float = number(
         0.0, "s", "time between samples of the force, by default 2e-7 s or less", may_vanish=True
@@ -242,13 +246,17 @@ class Scene(Material, Geometry):
 
     @property
     def given(self) -> Row:
-        """Values that differ from the defaults and do not follow from others, by name."""
+        """Values that differ from the defaults and do not follow from others, by name.
+
+        Those of constants of a law from a file come last.
+        """
         usual: Row = {each.name: each.default for each in fields(self)}
         usual |= {"n_rows": self.n_blocks, "sample_interval": self.usual_interval(self.step)}
         if self.mask:
             usual |= {"n_blocks": self.n_blocks, "n_rows": self.n_rows}
-        values = ((name, getattr(self, name)) for name in usual)
-        return {name: value for name, value in values if value != usual[name]}
+        values = {name: getattr(self, name) for name in usual}
+        own = dict(self.law.given) if isinstance(self.law, LawFile) else {}
+        return {name: value for name, value in values.items() if value != usual[name]} | own
 
     @property
     def options(self) -> str:
@@ -256,10 +264,10 @@ class Scene(Material, Geometry):
         told = []
         for name, value in self.given.items():
             text = ",".join(map(str, value)) if isinstance(value, tuple) else value
-            file = getattr(value, "file", None)
-            told.append(f"--{name.replace('_', '-')} {quote(str(file or text))}")
-        own = self.law.given if isinstance(self.law, LawFile) else ()
-        return " ".join([*told, *(f"--constant {quote(f'{k}={v}')}" for k, v in own)])
+            text = quote(str(getattr(value, "file", None) or text))
+            option = f"--{name.replace('_', '-')} {text}" if name in FIELDS else ""
+            told.append(option or f"--constant {name}={text}")
+        return " ".join(told)
 
     @property
     def files(self) -> list[str]:
@@ -272,7 +280,8 @@ class Scene(Material, Geometry):
         """Readable part of the name of the folder of its realisations, as pillars-6-6-x."""
         kind = ("flat", "pillars" if self.n_p else "grooves", "grooves", "hierarchy")[self.level]
         along = [self.along_3] if self.along_3 else []
-        own = chain.from_iterable(each for each in self.given.items() if each[0] in CONSTANTS)
+        others = FIELDS.keys() - set(CONSTANTS)
+        own = chain.from_iterable(each for each in self.given.items() if each[0] not in others)
         parts = self.mask or kind, *self.lengths.values(), *along, self.direction, *own
         return "-".join(map(str, parts)).encode()[:_LONGEST].decode(errors="ignore")
 
