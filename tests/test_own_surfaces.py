@@ -21,7 +21,7 @@ WEIBULL = {"distribution": ["weibull"], "correlation_length": [3e-5]}
 CORRELATED = {"correlation_length": [2e-5]}
 GROUP = [
     {"mask": MASK, "material": WEIBULL, "direction": ["x"], "seeds": 2},
-    {"mask": MASK, "mu_static": "mu.npy", "mu_dynamic": WEAK, "direction": ["y"]},
+    {"mask": MASK, "mu_static_field": "mu.npy", "mu_dynamic_field": WEAK, "direction": ["y"]},
     {"n_rows": [6], "edges": "periodic", "direction": ["x"], "seeds": 2, "material": CORRELATED},
 ]
 
@@ -54,14 +54,14 @@ def study(ran) -> Study:
     return ran[0]
 
 
-def records(study, *parts):
-    """Realisations in the folder of this scene."""
-    folder = study / RESULTS / "realisations/n_blocks-12" / name(study) / "/".join(parts)
-    return read_records(sorted(folder.glob("batch-*.parquet")))
+def records(study, **wanted):
+    """Realisations of the scenes that have these values."""
+    every = read_records(sorted((study / RESULTS / "realisations").glob("*/*.parquet")))
+    return [run for run in every if wanted.items() <= run.scene.values.items()]
 
 
 def name(study):
-    return f"mask-{BlockMap.mask(study / MASK)}"
+    return str(BlockMap.mask(study / MASK))
 
 
 def assert_same(run, surface, direction="x"):
@@ -89,8 +89,7 @@ def test_the_example_can_be_planned(study):
 
 
 def test_a_study_simulates_what_python_does(study):
-    weibull = ("distribution-weibull", "correlation_length-3e-05", "direction-x")
-    runs = records(study, *weibull)
+    runs = records(study, mask=name(study), distribution="weibull", correlation_length=3e-5)
     assert [run.seed for run in runs] == [0, 1]
     for run in runs:
         np.testing.assert_array_equal(run.scene.contact, ISLANDS)
@@ -101,8 +100,7 @@ def test_a_study_simulates_what_python_does(study):
 
 def test_coefficients_from_files_are_not_drawn(study):
     mu, weak = (BlockMap.coefficients(study / file) for file in ("mu.npy", WEAK))
-    parts = (f"mu_static_field-{mu}", f"mu_dynamic_field-{weak}", "direction-y")
-    (run,) = records(study, *parts)
+    (run,) = records(study, mu_static_field=str(mu), mu_dynamic_field=str(weak), direction="y")
     assert_same(run, Surface(ISLANDS, mu.values, weak.values), direction="y")
 
 
@@ -116,8 +114,7 @@ def test_a_changed_image_is_another_surface(study, tmp_path):
 
 def test_rectangles_and_periodic_edges_are_simulated_as_in_python(study):
     """Correlated coefficients, too, go around the edges."""
-    batches = (study / RESULTS / "realisations/n_blocks-12/n_rows-6").rglob("batch-*.parquet")
-    runs = read_records(sorted(batches))
+    runs = records(study, n_rows=6)
     assert [run.seed for run in runs] == [0, 1]
     for run in runs:
         assert run.scene.edges == "periodic"

@@ -126,7 +126,7 @@ def test_means_are_those_of_ensembles_with_the_constants_of_the_study(springbloc
     how = "simulate", "--n-blocks", 8, "--duration", 2e-6, "--output"
     springblock(*how, own)
     springblock(*how, other, "--gamma", "4321")
-    springblock("aggregate", own, other, "--configuration", 0, "--output", table)
+    springblock("aggregate", own, other, "--output", table)
     said = re.sub(r"<script.*", "", page([table], {}), flags=re.DOTALL)
     means = said.partition('id="means"')[2].partition("</section>")[0]
     assert means.count("<tr>") == 2  # a heading and one ensemble
