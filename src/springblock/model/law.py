@@ -37,7 +37,7 @@ class LawFile:
     """
 
     name: str  #: name of the file and eight digits, as ageing-1a2b3c4d
-    given: tuple[tuple[str, float], ...] = ()  #: values that replace those of the file
+    given: tuple[tuple[str, float], ...] = ()  #: its constants, in the order of the file
     file: Path | None = field(default=None, compare=False, repr=False)  #: None if not known
     source: str = field(default="", compare=False, repr=False)
     units: Mapping[str, str] = field(default_factory=dict, compare=False, repr=False)
@@ -96,7 +96,7 @@ class LawFile:
 
     def vary(self, constants: Mapping[str, Any]) -> "LawFile":
         """Return the law with other values of its constants."""
-        given = dict(self.given)
+        given = self.constants
         for name, value in {normalize("NFKC", key): constants[key] for key in constants}.items():
             if name not in self.constants:
                 raise ValueError(
@@ -106,7 +106,7 @@ class LawFile:
             if not is_finite(value):
                 raise ValueError(f"{name} must be a finite number, not {value!r}")
             given[name] = float(value)
-        return replace(self, given=tuple(sorted(given.items())))
+        return replace(self, given=tuple(given.items()))
 
     def run(self) -> dict[str, Any]:
         """Run the file and return its definitions, by name."""
