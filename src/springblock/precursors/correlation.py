@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from springblock.analysis.correlation import Correlation
+from springblock.analysis.statistics import Interval, bootstrap_interval
 from springblock.model.numbers import Array
 
 
@@ -23,11 +24,24 @@ class EdgeCorrelation(Correlation):
         products = np.fft.irfft(power.mean(axis=(1, 2)), n)[:, : n // 2]
         return about.mean(axis=(1, 2, 3)), products
 
+    def _covariance(self, weights: Array) -> Array:
+        mean, products = self._moments
+        return weights @ products - (weights @ mean)[:, None] ** 2
+
     def weighted(self, weights: Array) -> Array:
         """Return c(r), (b, r), for b sets of weights of the realisations, (b, k), of sum 1."""
-        mean, products = self._moments
-        covariance = weights @ products - (weights @ mean)[:, None] ** 2
+        covariance = self._covariance(weights)
         return covariance / covariance[:, :1]
+
+    @property
+    def scatter(self) -> Interval:
+        """Standard deviation of τ over its mean."""
+
+        def estimate(weights: Array) -> Array:
+            mean = weights @ self.times.mean(axis=(1, 2, 3))
+            return np.sqrt(self._covariance(weights)[:, 0]) / mean
+
+        return bootstrap_interval(estimate, len(self.times))
 
 
 def reach(r: Array, c: Array) -> float:
