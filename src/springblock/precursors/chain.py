@@ -1,15 +1,13 @@
 """Avalanches along an edge under Coulomb friction: a chain of thresholds.
 
 A block that slips by s between neighbours at rest loses S_ii s and hands T_r S_ii s to the block r
-further along the edge, where S is the stiffness of `springblock.mechanism.elasticity` and
-
-    T_r = -S_(i,i+r)/S_ii,    T₁ ≈ K_int/(3 K_int + K_s) on edges along the sliding direction.
-
-The blocks of an edge are a chain under a common load f, in normal forces F_n. A block detaches
-where f and what it has been handed reach its strength mu_s. It overshoots, as without damping: from
-the load F it drops by D = 2 (F - mu_d), rests, is as strong as before, and hands T_r D on to both
-sides. While f is constant, the most overloaded block goes first. If its own motion is overdamped, a
-block drops to mu_d instead, slides for good and passes on all later load.
+further along the edge, with S of `springblock.mechanism.elasticity` and T_r = -S_(i,i+r)/S_ii:
+T₁ ≈ K_int/(3 K_int + K_s) on edges along the sliding direction. The blocks of an edge are a chain
+under a common load f, in normal forces F_n. A block detaches where f and what it has been handed
+reach its strength mu_s. It overshoots, as without damping: from the load F it drops by
+D = 2 (F - mu_d), rests, is as strong as before, and hands T_r D on to both sides. While f is
+constant, the most overloaded block goes first. If its own motion is overdamped, a block drops to
+mu_d instead, slides for good and passes on all later load.
 
 If load is handed on to the next block of one side only, block i goes at the load
 
@@ -27,7 +25,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import circulant
 from scipy.special import ndtr
 
@@ -59,8 +56,7 @@ class Edge(NamedTuple):
         row = blocks[:_LENGTH] if shape == "along" else blocks[::width]
         middle = row[_LENGTH // 2 :][: REACH + 1]
         line = layer.stiffness[middle[0], middle]
-        overload = float(layer.stress[middle[0]] / material.k_s)
-        return cls(-line[1:] / line[0], overload, float(line[0]))
+        return cls(-line[1:] / line[0], layer.stress[middle[0]] / material.k_s, line[0])
 
     def overdamps(self, material: Material) -> bool:
         """Return whether a block that slips between others at rest does not overshoot."""
@@ -101,7 +97,7 @@ def damped_loads(transfer: Array, material: Material, shape: tuple[int, int], se
     strength, rows = np.maximum(static, dynamic), np.arange(shape[0])
     found, load = np.full(shape, np.nan), np.zeros((shape[0], 1))
     between = np.zeros(shape[1] - 1 - 2 * len(transfer))
-    line = np.concatenate([[1.0], -transfer, between, -transfer[::-1]])
+    line = np.r_[1.0, -transfer, between, -transfer[::-1]]
     matrix = np.tile(circulant(line), (shape[0], 1, 1))
     a, b = np.ones(shape), np.zeros(shape)
     for _ in range(shape[1]):
@@ -124,7 +120,7 @@ def avalanche_length(material: Material, share: float) -> float:
     return -1.0 / math.log1p(-math.erfc(z)) if z else 0.0
 
 
-def one_sided_correlation(material: Material, share: float, r: NDArray[np.integer]) -> Array:
+def one_sided_correlation(material: Material, share: float, r: Array) -> Array:
     """Return c(r), (r,), of the chain that hands T₁ = `share` on to one side; mu_s is normal."""
     mean, sigma = material.mu_static, material.mu_static_std
     q = 2.0 * (mean - material.mu_dynamic) * share
@@ -134,5 +130,4 @@ def one_sided_correlation(material: Material, share: float, r: NDArray[np.intege
     left = stronger / apart  # 1 - F
     beyond = step * np.cumsum(left[::-1])[::-1]  # ∫_x^∞ (1 - F) dy
     weight = (x - x[0] - beyond[0]) * left + beyond  # W, by parts
-    found: Array = (weight * (1.0 - apart) ** np.asarray(r)[:, None]).sum(axis=1) / weight.sum()
-    return found
+    return np.asarray((1.0 - apart) ** r[:, None] @ weight / weight.sum())

@@ -2,7 +2,7 @@
 
 First-order perturbation of `springblock.continuum.theory`, in its units: x runs inwards from the
 edge of a stripe, z along the edge, lengths are in lambda_n across the edge (lambda_t along it). At
-the load P = k U/Delta the front is at s, and the slip u(x). Under disorder dtau(x) e^(iqz) of the
+the load P = k U/Delta the front is at s, and slip is u(x). Under disorder dtau(x) e^(iqz) of the
 strength tau_s and the friction tau_d, slip changes by du, and in the zone that has slipped
 
     du" - (1 + q² lambda_t² - w) du = dtau,    w = 1/kappa where u < kappa, else 0,
@@ -115,8 +115,8 @@ class Front:
     def scatter(self) -> float:
         """Standard deviation of the load of passage over its mean."""
         q, power = self.spectrum
-        deviation = self.shift * math.sqrt(np.trapezoid(power, q) / math.pi)
-        return deviation / (self.load + self.groups.residual)
+        mean = self.load + self.groups.residual
+        return self.shift * math.sqrt(np.trapezoid(power, q) / math.pi) / mean
 
     def correlation(self, r: Array) -> Array:
         """Return c(r) of the load of passage along the edge, (r,), for r in m."""
