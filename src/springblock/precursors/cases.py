@@ -13,7 +13,7 @@ from tqdm import tqdm
 from springblock.analysis.statistics import Interval, mean_interval
 from springblock.continuum.cases import PLAIN, with_springs
 from springblock.io.rows import Row, limits
-from springblock.io.schemas import SETUP, column, numbers, texts
+from springblock.io.schemas import SCENE, column, numbers, texts
 from springblock.model.material import Material
 from springblock.model.numbers import Array
 from springblock.model.surface import Surface
@@ -226,7 +226,7 @@ PRECURSORS = pa.schema(
             simulated_low="lower limit of its 95 % interval",
             simulated_high="upper limit",
         ),
-        *SETUP,
+        *map(SCENE.field, Setup().constants),
         column("seeds", pa.int64(), "1", "number of realisations"),
     ]
 )
