@@ -100,7 +100,7 @@ def test_the_readme_can_be_followed(study):
 def test_what_the_page_on_the_workflow_plans_can_be_planned(study):
     page = (ROOT / "docs/workflow.md").read_text(encoding="utf-8")
     steps = re.findall(r"snakemake -n (\w+)", page)
-    assert len(steps) == 2
+    assert steps
     for step in steps:
         assert study.planned("--", step, configuration=("config/config.yaml",))
 

@@ -77,6 +77,6 @@ def test_a_study_in_another_folder_has_the_same_defaults_and_glossary(tmp_path, 
         configuration = (str(here / "tiny.yaml"),)
         said = Study(ROOT).run("-d", str(tmp_path), *shown, configuration=configuration)
     assert "--n-blocks 120" in said
-    (report,) = re.findall(r"^Shell command: (springblock .+ report .+)$", said, re.MULTILINE)
+    (report,) = re.findall(r"^Shell command: (springblock report .+)$", said, re.MULTILINE)
     (glossary,) = re.findall(r"\S+glossary\.md", report)
     assert (tmp_path / glossary).resolve() == ROOT / "docs/glossary.md"

@@ -5,6 +5,7 @@ import shutil
 import signal
 import subprocess
 import time
+from io import BytesIO
 
 import psutil
 import pyarrow.parquet as pq
@@ -133,7 +134,13 @@ def truncated(content):
 
 
 def flipped(content):
-    place = len(content) // 3
+    """Change a bit of an array, or of the largest column of a table."""
+    place = len(content) // 2
+    if content.startswith(b"PAR1"):
+        group = pq.read_metadata(BytesIO(content)).row_group(0)
+        columns = [group.column(i) for i in range(group.num_columns)]
+        largest = max(columns, key=lambda each: each.total_compressed_size)
+        place = largest.data_page_offset + largest.total_compressed_size // 2
     return content[:place] + bytes([content[place] ^ 4]) + content[place + 1 :]
 
 

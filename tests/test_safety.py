@@ -16,7 +16,7 @@ from studies import ROOT, Study
 @pytest.mark.parametrize("text", ["$(touch a).png", "a 'b'.png", "{input}.png", "नमस्ते.png"])
 def test_commands_quote_every_path(text):
     scene = Scene(mask=BlockMap("own-12345678", np.ones((3, 3), bool), Path(text)))
-    words = shlex.split(scene.arguments)
+    words = shlex.split(scene.options)
     assert words[words.index("--mask") + 1] == text
 
 

@@ -59,7 +59,7 @@ def read_arrays(path: Path) -> dict[str, NDArray[Any]]:
     A file that is damaged or of another type is a ValueError.
     """
     try:
-        with np.load(path, allow_pickle=False) as arrays:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             return dict(arrays)
     except _TORN as error:
         raise ValueError(str(error)) from error

@@ -94,8 +94,8 @@ def test_a_group_that_a_study_may_have_is_drawn_where_it_has_it():
 
 def test_figures_need_no_more_tables_than_they_show():
     assert FIGURES["figure_3"].needs(GROUPS, {}) == [Need("realisations", FLAT, batches=1)]
-    tables = FIGURES["figure_7"].needs(GROUPS, {"n_p": 20})  # smaller ones have no sides
-    assert tables == [Need("correlation", LARGE), Need("correlation_length", LARGE)]
+    tables = FIGURES["figure_7"].needs(GROUPS, {"n_p": 20})
+    assert tables == [Need("correlation"), Need("correlation_length")]
     assert FIGURES["stability"].needs(GROUPS, {}) == [Need("stability")]
     both = FIGURES["work_precision"].needs(GROUPS, {})
     assert both == [Need("work_precision"), Need("production")]

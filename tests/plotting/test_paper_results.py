@@ -16,6 +16,7 @@ from springblock.analysis.statistics import (
     pillar_ring,
     prominence,
 )
+from springblock.io.identity import identity
 from springblock.io.records import Record
 from springblock.model.scene import Scene
 from springblock.plotting import drawing
@@ -86,7 +87,13 @@ def correlation(n_p: int = 60) -> pd.DataFrame:
         c = np.exp(-r / length)
         columns = {"r": r, "correlation": c, "ci_low": c - 0.05, "ci_high": c + 0.05}
         sides.append(pd.DataFrame(columns).assign(n_p=n_p, side=side))
-    return pd.concat(sides)
+    return on_pillars(pd.concat(sides))
+
+
+def on_pillars(table: pd.DataFrame) -> pd.DataFrame:
+    """Add the scenes of a table of correlations: pillars and gaps of n_p blocks."""
+    scenes = [identity(Scene(120, n_p, n_p)) | {"level": 1} for n_p in table["n_p"]]
+    return table.assign(**pd.DataFrame(scenes, table.index).drop(columns=["n_p", "snapshot_times"]))
 
 
 def lengths() -> pd.DataFrame:
@@ -100,7 +107,7 @@ def lengths() -> pd.DataFrame:
             row |= {"r_last": min(n_p // 3, 5), "amplitude": 0.8}
             row |= {"tail": tail, "tail_low": tail - 0.5, "tail_high": tail + 0.5}
             rows.append({"n_p": n_p, "side": side, **row})
-    return pd.DataFrame(rows)
+    return on_pillars(pd.DataFrame(rows))
 
 
 DRAWINGS = {
@@ -108,11 +115,13 @@ DRAWINGS = {
     "figure_3": lambda: drawing("figure_3")(ensemble(110e-6)),
     "figure_5": lambda: drawing("figure_5")(ensemble(110e-6)),
     "figure_6": lambda: drawing("figure_6")(sizes()),
-    "figure_7": lambda: drawing("figure_7")(correlation(), lengths()),
+    "figure_7": lambda: drawing("figure_7")(correlation(), lengths(), 60),
     "figure_9": lambda: drawing("figure_9")(along_and_across()),
     "figure_5 of one run": lambda: drawing("figure_5")([replace(record(0), scene=ASKEW)]),
     "figure_6 of one run": lambda: drawing("figure_6")(sizes(runs=1)),
-    "figure_7 of the smallest pillars": lambda: drawing("figure_7")(correlation(6), lengths()[:2]),
+    "figure_7 of the smallest pillars": lambda: drawing("figure_7")(
+        correlation(6), lengths()[:2], 6
+    ),
     "figure_9 of one run": lambda: drawing("figure_9")(along_and_across(runs=1)),
 }
 drawn = cache(lambda name: DRAWINGS[name]())  # for tests that only look at it
@@ -343,8 +352,11 @@ def test_the_last_panel_shows_the_lengths_along_x_with_their_intervals():
     assert sizes.get_xscale() == "log"
 
 
-def test_scenes_that_figure_7_cannot_tell_apart_are_refused():
-    with pytest.raises(ValueError, match="same n_p"):
-        drawing("figure_7")(correlation(), pd.concat([lengths(), lengths()[-1:]]))
+def test_figure_7_shows_pillars_with_equal_gaps_and_the_study_s_constants():
+    """Neither other gaps, nor another material; without the size asked for it is refused."""
+    others = [lengths().assign(n_s=5), lengths().assign(gamma=1.0)]
+    picture = drawing("figure_7")(correlation(), pd.concat([lengths(), *others]), 60)
+    shown, usual = (each.axes[2].lines[0].get_xydata() for each in (picture, drawn("figure_7")))
+    np.testing.assert_array_equal(shown, usual)
     with pytest.raises(ValueError, match="no correlation length for n_p = 60"):
-        drawing("figure_7")(correlation(), lengths()[:4])
+        drawing("figure_7")(correlation(), lengths()[:4], 60)
