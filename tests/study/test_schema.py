@@ -18,6 +18,15 @@ from springblock.study.configuration import TIMES, completed
 from studies import PAPER, ROOT, SCHEMA
 
 FILE = ROOT / "workflow/schemas/config.schema.yaml"
+#: Fields of scenes whose keys in a grid take more than lists of their values.
+TOLD = {"n_s", "direction", "snapshot_times"}
+
+
+class Plain(yaml.SafeDumper):
+    """Writes equal parts in full, without anchors."""
+
+    def ignore_aliases(self, data: Any) -> bool:
+        return True
 
 
 def with_constants(schema: Mapping[str, Any]) -> dict[str, Any]:
@@ -38,7 +47,10 @@ def with_constants(schema: Mapping[str, Any]) -> dict[str, Any]:
     whole["properties"] |= {name: one[name] for name in TIMES}
     whole["properties"]["material"]["properties"] = {name: one[name] for name in material}
     axes["properties"] = {name: many.pop(name) for name in material}
-    grid["properties"] = many | grid["properties"]
+    by_hand = {
+        key: each for key, each in grid["properties"].items() if key not in many or key in TOLD
+    }
+    grid["properties"] = many | by_hand
     return whole
 
 
@@ -66,8 +78,9 @@ def test_a_validator_that_knows_nothing_else_takes_the_projects_configurations(n
 
 if __name__ == "__main__":
     told = FILE.read_text().partition("$schema")[0]
-    written = yaml.safe_dump(
+    written = yaml.dump(
         with_constants(SCHEMA),
+        Dumper=Plain,
         sort_keys=False,
         width=110,
         default_flow_style=None,
