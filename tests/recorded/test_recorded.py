@@ -256,7 +256,7 @@ def commands() -> str:
     values = (5e-5, 1e4, 0.02), (5e-3, 2e5, 0.3)
     names = "slider_velocity", "pressure", "mu_static_std"
     pairs = [pair for each in values for pair in zip(names, each, strict=True)]
-    varied = [Scene(paper.N, varied=[pair]) for pair in pairs]
+    varied = [paper.surface(paper.N, **{name: value}) for name, value in pairs]
     scenes = [*paper.SCENES, *varied]
     few = {scene: [paper.record(scene, seed) for seed in range(5)] for scene in scenes}
     with tempfile.TemporaryDirectory() as name:
