@@ -5,6 +5,7 @@ import hashlib
 import json
 import os
 import tomllib
+from collections.abc import Iterable
 from functools import cache
 from importlib.metadata import version
 from itertools import chain
@@ -117,6 +118,12 @@ def code_version(step: str) -> str:
 def same_code(one: str, other: str) -> bool:
     """Return whether two versions have the same digest."""
     return one.rpartition("+")[2] == other.rpartition("+")[2]
+
+
+def digest_of_files(files: Iterable[Path]) -> str:
+    """Return the digest of the names of files and of their folders, in order; "" without files."""
+    names = ["/".join(file.absolute().parts[-2:]) for file in files]
+    return digest_of_data(names) if names else ""
 
 
 def digest_of_data(data: Any) -> str:

@@ -45,7 +45,7 @@ def sticking(friction: float) -> Change:
 
 def constant(name: str, value: float) -> Change:
     """Another constant of the material."""
-    return lambda run: {"constants": {**run.constants, name: value}}
+    return lambda run: {"scene": replace(run.scene, **{name: value})}
 
 
 def patch(run: Record) -> dict[str, Any]:

@@ -49,7 +49,7 @@ def code(step):
 os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()]))
 if workflow.is_main_process:
     os.environ[PLAN] = planned(PLANNED.digest)
-    PLANNED.remove_others(workflow.dryrun)
+    checked(PLANNED.remove_others, workflow.dryrun)
 
 
 wildcard_constraints:

@@ -92,8 +92,9 @@ def _command(name: str, declared: Declaration) -> click.Command:
     def write(outputs: Paths, **inputs: Any) -> None:
         data = given(declared, **inputs)
         picture = drawing(name)(*data)
+        files = inputs.get("batches") or inputs.get("tables") or ()
         for output in outputs:
-            save(picture, output, declared.described(**_values(declared, data)))
+            save(picture, output, declared.described(**_values(declared, data)), files)
 
     command = click.command(name, help=declared.caption, short_help=declared.title)
     return command(with_options([*takes, _OUTPUTS], write))

@@ -16,7 +16,6 @@ from springblock.files import whole_file
 from springblock.model.numbers import Array
 from springblock.plotting import maps, style
 from springblock.plotting.style import MICRO, MM
-from springblock.provenance import study
 from springblock.simulation.run import Run, friction
 
 FRAMES, PER_SECOND = 150, 20  #: 7.5 s
@@ -139,8 +138,7 @@ def _gif(drawn: list[Frame], file: Path) -> None:
         for frame in drawn
     )
     pace = 1000 // PER_SECOND  # ms
-    told = {"comment": study().encode()}  # for `springblock.study.stale`
-    first.save(file, "GIF", save_all=True, append_images=rest, duration=pace, loop=0, **told)
+    first.save(file, "GIF", save_all=True, append_images=rest, duration=pace, loop=0)
 
 
 def _mp4(drawn: list[Frame], file: Path) -> None:

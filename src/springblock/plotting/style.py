@@ -20,7 +20,7 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from springblock.files import whole_file
-from springblock.provenance import study
+from springblock.provenance import digest_of_files
 
 Look = dict[str, Any]  #: of a line, of markers or of text
 
@@ -189,15 +189,15 @@ def settle(picture: Figure) -> None:
 
 
 @journal
-def save(picture: Figure, path: Path, caption: str | None = None) -> None:
+def save(picture: Figure, path: Path, caption: str = "", made_from: Iterable[Path] = ()) -> None:
     """Write a figure as PDF, PNG (600 dpi) or SVG, by the suffix of `path`, whole or not at all.
 
-    Its bytes depend on the picture, the caption and the study alone; the latter two are kept in the
-    metadata.
+    Its bytes depend on the picture, the caption and the names of the files that it is made from
+    alone; caption and a digest of the names are kept in the metadata.
     """
     keys = ("Subject", "Keywords") if path.suffix == ".pdf" else ("Description", "Source")
-    described = {key: text for key, text in zip(keys, (caption, study()), strict=True) if text}
-    metadata = _METADATA[path.suffix] | described
+    described = dict(zip(keys, (caption, digest_of_files(made_from)), strict=True))
+    metadata = _METADATA[path.suffix] | {key: text for key, text in described.items() if text}
     settle(picture)
     with whole_file(path) as partial:
         picture.savefig(partial, format=path.suffix[1:], metadata=metadata)

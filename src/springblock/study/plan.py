@@ -15,7 +15,7 @@ from springblock.model.scene import Scene
 from springblock.plotting import figures
 from springblock.plotting.declaration import Declaration, file_name, having
 from springblock.plotting.lines import axes
-from springblock.provenance import digest, digest_of_data
+from springblock.provenance import digest, digest_of_data, digest_of_files
 from springblock.solver.integrators import INTEGRATORS
 from springblock.study import configuration as read
 from springblock.study import cost
@@ -221,12 +221,13 @@ class Plan:
                 yield from self.batches([scene])[:number]
 
     def remove_others(self, dryrun: bool) -> None:
-        """Remove tables and pictures of another configuration, which are then made again."""
+        """Remove tables of another configuration, and pictures of other files: made again."""
         tables = ("realisations", "correlation", "correlation_length", "claims", "sensitivities")
-        files = [f"{self.results}/tables/{name}.parquet" for name in tables]
-        files += [f"{self.results}/figures/{name}.png" for name in (*self.figures, *self.sweeps)]
-        files += [f"{self.results}/films/{name}.gif" for name in self.films]
-        remove_others(files, self.digest, dryrun)
+        wanted = {f"{self.results}/tables/{name}.parquet": self.digest for name in tables}
+        for name in (*self.figures, *self.sweeps):
+            files = map(Path, self.needed(name))
+            wanted[f"{self.results}/figures/{name}.png"] = digest_of_files(files)
+        remove_others(wanted, dryrun)
 
     def command(self, figure: str) -> str:
         """Return the command that draws a figure, without its files."""

@@ -1,7 +1,7 @@
 """Tables and pictures of another configuration, which Snakemake shall make again."""
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Mapping
 from pathlib import Path
 
 import pyarrow as pa
@@ -9,14 +9,16 @@ import pyarrow.parquet as pq
 from PIL import Image
 
 
-def remove_others(files: Iterable[str], study: str, dryrun: bool) -> None:
-    """Remove tables and pictures that are of another study than this, and say so.
+def remove_others(wanted: Mapping[str, str], dryrun: bool) -> None:
+    """Remove tables and pictures that keep another digest than that wanted of them, and say so.
 
     They are made again from realisations, whatever Snakemake remembers of them or is told to
     ignore: lost metadata, `--touch` and `--rerun-triggers` cannot hide them. A dry run removes
     nothing.
     """
-    others = [file for file in map(Path, files) if file.exists() and _study_of(file) != study]
+    others = [
+        file for file in map(Path, wanted) if file.exists() and _kept(file) != wanted[str(file)]
+    ]
     for file in [] if dryrun else others:
         file.unlink()
     if others:
@@ -24,14 +26,13 @@ def remove_others(files: Iterable[str], study: str, dryrun: bool) -> None:
         print(told, file=sys.stderr)
 
 
-def _study_of(file: Path) -> str | None:
-    """Return the digest of the study that a table or picture keeps; None without one."""
+def _kept(file: Path) -> str:
+    """Return the digest that a table keeps of its study, or a picture of its files; "" without."""
     try:
         if file.suffix == ".parquet":
             metadata = pq.read_schema(file).metadata or {}
-            return metadata.get(b"study", b"").decode() or None
+            return metadata.get(b"study", b"").decode()
         with Image.open(file) as picture:
-            kept = picture.info.get("Source") or picture.info.get("comment") or b""
-        return kept.decode() if isinstance(kept, bytes) else str(kept)
+            return str(picture.info.get("Source", ""))
     except (pa.ArrowException, OSError):
-        return None
+        return "damaged"
