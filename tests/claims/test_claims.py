@@ -135,7 +135,7 @@ PARTS = [
     ("quasi_static_phase", "quiet beside", [paper.ALONG], steady),
     ("quasi_static_phase", "precursors slip again", [paper.ALONG], calm),
     ("quasi_static_phase", "the core at rest", [paper.ALONG], mirrored),
-    ("quasi_static_phase", "the surface stressed", [paper.ALONG], constant("mu_dynamic", 0.66)),
+    ("quasi_static_phase", "the surface stressed", paper.SCENES, constant("mu_dynamic", 0.66)),
 ]
 
 
