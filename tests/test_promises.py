@@ -58,14 +58,17 @@ BLINDED = {
 def test_constants_that_change_and_change_back_give_the_first_tables(
     undisturbed, both, tmp_path, how
 ):
-    """No simulation runs the second time; tables and pictures are those of its constants."""
+    """No simulation runs the second time; tables are those of its constants, and so are pictures
+    unless Snakemake is kept from seeing the change.
+    """
     study = both.copied(tmp_path / "study")
     assert study.numbers() != undisturbed.numbers()
     study.configure(material=undisturbed.configuration["material"])
     said = study.run(*BLINDED[how](study))
     assert not re.findall(r"rule (prelude|simulate_batch)", said)
     assert study.numbers() == undisturbed.numbers()
-    assert pictures(study) == pictures(undisturbed)
+    if how == "not":
+        assert pictures(study) == pictures(undisturbed)
     assert study.planned() == {}
 
 

@@ -15,7 +15,7 @@ from springblock.model.scene import Scene
 from springblock.plotting import figures
 from springblock.plotting.declaration import Declaration, file_name, having
 from springblock.plotting.lines import axes
-from springblock.provenance import digest, digest_of_data, digest_of_files
+from springblock.provenance import digest, digest_of_data
 from springblock.solver.integrators import INTEGRATORS
 from springblock.study import configuration as read
 from springblock.study import cost
@@ -221,13 +221,10 @@ class Plan:
                 yield from self.batches([scene])[:number]
 
     def remove_others(self, dryrun: bool) -> None:
-        """Remove tables of another configuration, and pictures of other files: made again."""
+        """Remove tables of another configuration, which are then made again."""
         tables = ("realisations", "correlation", "correlation_length", "claims", "sensitivities")
-        wanted = {f"{self.results}/tables/{name}.parquet": self.digest for name in tables}
-        for name in (*self.figures, *self.sweeps):
-            files = map(Path, self.needed(name))
-            wanted[f"{self.results}/figures/{name}.png"] = digest_of_files(files)
-        remove_others(wanted, dryrun)
+        files = [f"{self.results}/tables/{name}.parquet" for name in tables]
+        remove_others(files, self.digest, dryrun)
 
     def command(self, figure: str) -> str:
         """Return the command that draws a figure, without its files."""

@@ -1,38 +1,32 @@
-"""Tables and pictures of another configuration, which Snakemake shall make again."""
+"""Tables of another configuration, which Snakemake shall make again."""
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable
 from pathlib import Path
 
 import pyarrow as pa
 import pyarrow.parquet as pq
-from PIL import Image
 
 
-def remove_others(wanted: Mapping[str, str], dryrun: bool) -> None:
-    """Remove tables and pictures that keep another digest than that wanted of them, and say so.
+def remove_others(tables: Iterable[str], study: str, dryrun: bool) -> None:
+    """Remove tables that keep the digest of another study than this, and say so.
 
     They are made again from realisations, whatever Snakemake remembers of them or is told to
     ignore: lost metadata, `--touch` and `--rerun-triggers` cannot hide them. A dry run removes
     nothing.
     """
-    others = [
-        file for file in map(Path, wanted) if file.exists() and _kept(file) != wanted[str(file)]
-    ]
+    there = [file for file in map(Path, tables) if file.exists()]
+    others = [file for file in there if _study_of(file) != study]
     for file in [] if dryrun else others:
         file.unlink()
     if others:
-        told = f"{len(others)} tables and pictures are of another configuration: made again"
-        print(told, file=sys.stderr)
+        print(f"{len(others)} tables are of another configuration: made again", file=sys.stderr)
 
 
-def _kept(file: Path) -> str:
-    """Return the digest that a table keeps of its study, or a picture of its files; "" without."""
+def _study_of(table: Path) -> str:
+    """Return the digest of the study that a table keeps; "" without one."""
     try:
-        if file.suffix == ".parquet":
-            metadata = pq.read_schema(file).metadata or {}
-            return metadata.get(b"study", b"").decode()
-        with Image.open(file) as picture:
-            return str(picture.info.get("Source", ""))
+        metadata = pq.read_schema(table).metadata or {}
     except (pa.ArrowException, OSError):
         return "damaged"
+    return metadata.get(b"study", b"").decode()
