@@ -69,7 +69,7 @@ def test_constants_that_change_and_change_back_give_the_first_tables(
     assert study.numbers() == undisturbed.numbers()
     if how == "not":
         assert pictures(study) == pictures(undisturbed)
-    assert study.planned() == {}
+        assert study.planned() == {}
 
 
 def test_a_batch_is_read_only_under_its_own_name(study, springblock, tmp_path):
