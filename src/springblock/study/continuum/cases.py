@@ -1,0 +1,222 @@
+"""Unit cells of one pillar or stripe: what the theory predicts, and the simulation of the same."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import product
+
+import numpy as np
+import pyarrow as pa
+from tqdm import tqdm
+
+from springblock.analysis.statistics import prominence
+from springblock.io.rows import Row
+from springblock.io.schemas import SCENE, column, numbers, texts
+from springblock.model.material import Material
+from springblock.model.surface import Surface
+from springblock.simulation.run import friction
+from springblock.simulation.setup import Setup
+from springblock.simulation.simulate import simulate
+from springblock.solver.integrators import limit
+from springblock.theory.layer import PLAIN, Groups, Square, stripe, with_springs
+
+#: Standard deviation of mu_static under Coulomb friction. Without it, rounding decides which
+#: blocks slip together, and single runs differ by up to 0.01.
+SCATTER = 1e-3
+#: Widths in lambda of stripes, and of squares in l_z.
+_WIDTHS, _SIZES = (3, 4, 5, 6, 7, 8, 10, 14), (2, 3, 4, 6, 8, 10, 15)
+#: Blocks per l_z of stripes and of squares.
+_FINE, _COARSE = 8, 4
+
+
+@dataclass(frozen=True)
+class Series:
+    """Cells that differ in the width a only, and a constant or a gap."""
+
+    shape: str  #: "across" or "along" the sliding direction, or "square"
+    what: str = "d_c = 100 nm"  #: what differs from the plain series
+    material: Material = PLAIN
+    gap: float = 1.0  #: b/a
+    widths: tuple[float, ...] = ()  #: in lambda, or in l_z of squares
+    pillars: int = 1  #: along a side
+    seeds: tuple[int, ...] = (0,)
+    predicted: bool = True
+
+    @property
+    def is_square(self) -> bool:
+        """Whether cells are of square pillars."""
+        return self.shape == "square"
+
+    @property
+    def groups(self) -> Groups:
+        """Groups of the theory."""
+        share = 1.0 / (1.0 + self.gap)
+        along = "y" if self.shape == "along" else "x"
+        return Groups.of(self.material, along, share**2 if self.is_square else share)
+
+    @property
+    def unit(self) -> float:
+        """Unit of the widths, m."""
+        return self.material.thickness if self.is_square else self.groups.decay
+
+    @property
+    def blocks(self) -> list[int]:
+        """Widths in blocks: multiples of four, so that halves of pillars and gaps are whole."""
+        widths = self.widths or (_SIZES if self.is_square else _WIDTHS)
+        return [4 * round(w * self.unit / self.material.spacing / 4.0) for w in widths]
+
+    def prediction(self, n: int) -> float:
+        """Return static friction of pillars of n blocks by the theory."""
+        groups, gap = self.groups, round(self.gap * n)
+        if self.is_square:
+            layer = self.material.thickness / self.material.spacing
+            excess = Square(n // 2, gap // 2, layer).excess(groups.residual, groups.kappa)
+        else:
+            unit = self.material.spacing / groups.decay
+            excess = stripe(n * unit, gap * unit, groups.residual, groups.kappa).excess
+        return groups.friction(excess)
+
+    def setup(self) -> Setup:
+        """Return the setup, with half of the longest stable step."""
+        step = float(f"{0.5 * limit('leapfrog', self.material):.1g}")
+        return Setup(self.material, step=step, sample_interval=20.0 * step)
+
+    def surface(self, n: int, seed: int) -> Surface:
+        """Return periodic cells with pillars or stripes of n blocks; stripes run along y."""
+        period = n + round(self.gap * n)
+        inside = np.arange(period * self.pillars) % period < n
+        contact = np.outer(inside if self.is_square else 3 * [True], inside)
+        return Surface.draw(contact, seed, self.material, periodic=True)
+
+
+def _varied(shape: str) -> Iterator[Series]:
+    """Yield the series of a shape that the predictions are for."""
+    per_layer = _COARSE if shape == "square" else _FINE
+    plain = replace(PLAIN, spacing=PLAIN.thickness / per_layer)
+    for d_c in (1e-7, 5e-8, 2e-7):
+        yield Series(shape, f"d_c = {1e9 * d_c:g} nm", replace(plain, slip_distance=d_c))
+    for l_z in (5e-6, 2e-5):
+        layer = replace(plain, thickness=l_z, spacing=l_z / per_layer)
+        yield Series(shape, f"l_z = {1e6 * l_z:g} µm", layer)
+    for mu_d in (0.3, 0.45, 0.75):
+        wide = (4, 6, 8, 10, 15, 20) if shape == "square" and mu_d < 0.5 else ()
+        yield Series(shape, f"mu_d = {mu_d:g}", replace(plain, mu_dynamic=mu_d), widths=wide)
+    for gap in (0.5, 2.0):
+        yield Series(shape, f"b/a = {gap:g}", plain, gap)
+    for factor in (0.5, 2.0):
+        yield Series(shape, f"K_s x {factor:g}", with_springs(plain, math.sqrt(factor)))
+
+
+def _lattices() -> Iterator[Series]:
+    """Yield finer lattices: squares, and stripes whose process zone is short."""
+    for spacing in (5e-6, 2.5e-6, 1.25e-6):
+        fine = replace(PLAIN, spacing=spacing)
+        yield Series("square", "lattice", fine, widths=(4, 6, 10), predicted=spacing > 2e-6)
+    coulomb = replace(
+        PLAIN, law="coulomb", slip_distance=0.0, healing="instant", mu_static_std=SCATTER
+    )
+    series = partial(Series, "square", "Coulomb", widths=(4, 8, 16), seeds=tuple(range(10)))
+    for spacing in (1e-5, 5e-6, 2.5e-6):
+        yield series(replace(coulomb, spacing=spacing), predicted=False)
+    for spacing, d_c in product((5e-6, 2.5e-6, 1.25e-6, 6.25e-7), (2e-8, 3e-8, 5e-8, 1e-7)):
+        zone = replace(PLAIN, spacing=spacing, slip_distance=d_c)
+        yield Series("across", "lattice", zone, widths=(4.0825, 6.532, 9.798))
+
+
+def _healing() -> Iterator[Series]:
+    """Yield what healing and damping change, and pawls of 80 µm between grooves of 20 µm."""
+    for healing, gamma in product(("none", "instant"), (1e6, 5e3)):
+        plain = replace(PLAIN, healing=healing, gamma=gamma)
+        for d_c in (2e-8, 1e-7):
+            fine = replace(plain, spacing=1.25e-6, slip_distance=d_c)
+            yield Series("across", "healing", fine, widths=(4, 6, 10))
+            pawls = replace(fine, spacing=1e-6)
+            yield Series("along", "pawls", pawls, 0.25, (8e-5 / (PLAIN.thickness * 0.5**0.5),))
+        square = replace(plain, spacing=2.5e-6)
+        yield Series("square", "healing", square, widths=(4, 6, 10, 15))
+
+
+def _disorder() -> Iterator[Series]:
+    """Yield disorder of single blocks, and correlated over l_z."""
+    drawn = replace(PLAIN, spacing=2.5e-6, mu_static_std=0.1, mu_dynamic_std=0.05)
+    for kind, length in {"independent": 0.0, "correlated": 1e-5}.items():
+        material, sizes = replace(drawn, correlation_length=length), (2, 4, 6, 10, 15)
+        seeds = (0, 1, 2, 3)
+        yield Series("square", f"disorder, {kind}", material, 1.0, sizes, 2, seeds, predicted=False)
+
+
+SERIES = {
+    **{shape: list(_varied(shape)) for shape in ("across", "along", "square")},
+    "lattices": list(_lattices()),
+    "healing": list(_healing()),
+    "disorder": list(_disorder()),
+}
+
+CELLS = pa.schema(
+    [
+        *texts(
+            shape="across or along the sliding direction for stripes, or square",
+            what="what differs from the plain series",
+        ),
+        *numbers("m", width="width of a pillar or stripe"),
+        *numbers("1", gap="gap over width", kappa="k d_c over the drop of stress"),
+        *numbers("m", decay="decay length lambda", process_zone="length of the weakening zone"),
+        *map(SCENE.field, Setup().constants),
+        column("seed", pa.int64(), "1", "seed of the friction coefficients"),
+        *numbers(
+            "1",
+            predicted="static friction by the theory; NaN if not computed",
+            simulated="static friction in the simulation",
+            switches="switches to sliding up to the peak, per block that has detached by then",
+            prominence="prominence of the second load peak over the largest force",
+        ),
+    ]
+)
+
+
+def measure(part: str) -> Iterator[Row]:
+    """Yield the rows of a part of `SERIES` as they are computed."""
+    for series in tqdm(SERIES[part.removeprefix("continuum-")], desc=part, unit="series"):
+        for n in series.blocks:
+            predicted = series.prediction(n) if series.predicted else math.nan
+            yield from (_row(series, n, seed, predicted) for seed in series.seeds)
+
+
+def _row(series: Series, n: int, seed: int, predicted: float) -> Row:
+    along = "y" if series.shape == "along" else "x"
+    run = simulate(series.surface(n, seed), series.setup(), along)
+    last = int(np.argmax(run.force)) + 1
+    return known(series, n) | {
+        "seed": seed,
+        "predicted": predicted,
+        "simulated": run.static_friction,
+        "switches": run.switches[:last].sum() / max(run.detachments[:last].sum(), 1),
+        "prominence": prominence(friction(run)),
+    }
+
+
+def known(series: Series, n: int) -> Row:
+    """Return the columns of a cell with pillars of n blocks that are known before its run."""
+    groups = series.groups
+    return series.setup().constants | {
+        "shape": series.shape,
+        "what": series.what,
+        "width": n * series.material.spacing,
+        "gap": series.gap,
+        "kappa": groups.kappa,
+        "decay": groups.decay,
+        "process_zone": groups.process_zone,
+    }
+
+
+def lowest_point(widths: np.ndarray, values: np.ndarray) -> tuple[float, float]:
+    """Return the minimum of the parabola, over log a, through the lowest value and two beside it.
+
+    At an end of the range it is the lowest value itself.
+    """
+    i = int(np.argmin(values))
+    if i in (0, len(values) - 1):
+        return float(widths[i]), float(values[i])
+    a, b, c = np.polyfit(np.log(widths[i - 1 : i + 2]), values[i - 1 : i + 2], 2)
+    return math.exp(-b / (2.0 * a)), float(c - b * b / (4.0 * a))
