@@ -115,14 +115,14 @@ DRAWINGS = {
     "figure_3": lambda: FIGURES["figure_3"].function()(ensemble(110e-6)),
     "figure_5": lambda: FIGURES["figure_5"].function()(ensemble(110e-6)),
     "figure_6": lambda: FIGURES["figure_6"].function()(sizes()),
-    "figure_7": lambda: FIGURES["figure_7"].function()(correlation(), lengths(), 60),
+    "figure_7": lambda: FIGURES["figure_7"].function()(60, correlation(), lengths()),
     "figure_9": lambda: FIGURES["figure_9"].function()(along_and_across()),
     "figure_5 of one run": lambda: FIGURES["figure_5"].function()(
         [replace(record(0), scene=ASKEW)]
     ),
     "figure_6 of one run": lambda: FIGURES["figure_6"].function()(sizes(runs=1)),
     "figure_7 of the smallest pillars": lambda: FIGURES["figure_7"].function()(
-        correlation(6), lengths()[:2], 6
+        6, correlation(6), lengths()[:2]
     ),
     "figure_9 of one run": lambda: FIGURES["figure_9"].function()(along_and_across(runs=1)),
 }
@@ -357,8 +357,8 @@ def test_the_last_panel_shows_the_lengths_along_x_with_their_intervals():
 def test_figure_7_shows_pillars_with_equal_gaps_and_the_study_s_constants():
     """Neither other gaps, nor another material; without the size asked for it is refused."""
     others = [lengths().assign(n_s=5), lengths().assign(gamma=1.0)]
-    picture = FIGURES["figure_7"].function()(correlation(), pd.concat([lengths(), *others]), 60)
+    picture = FIGURES["figure_7"].function()(60, correlation(), pd.concat([lengths(), *others]))
     shown, usual = (each.axes[2].lines[0].get_xydata() for each in (picture, drawn("figure_7")))
     np.testing.assert_array_equal(shown, usual)
     with pytest.raises(ValueError, match="no correlation length for n_p = 60"):
-        FIGURES["figure_7"].function()(correlation(), lengths()[:4], 60)
+        FIGURES["figure_7"].function()(60, correlation(), lengths()[:4])

@@ -36,6 +36,7 @@ _IN_TIME = (0, 2, 3, 6, 10, 20, 30, 60)  #: n_p in the curves of figure 6: the p
 _SMALL: Look = {"markersize": 1.8, "capsize": 2.2}  #: smaller than most intervals
 _SIZE = "size of the pillars $n_p$ (blocks)"
 _FLOOR = 0.01  #: %, where the logarithmic axis of detachments begins in figure 6
+_PAPERS_LENGTH = 3.0  #: blocks, l_c of the paper for n_p of 20 or more
 _LEAST = 0.01  #: c(r) at the foot of the logarithmic axis in figure 7
 _SIDES: dict[str, Look] = {
     "x": {"color": BLUE, "marker": "D", "linestyle": "none"},
@@ -179,11 +180,17 @@ def _draw_flat(ax: Axes, sample: Array) -> None:
     ax.annotate("flat", (0.45, mean), (0.0, -2.0), ax.get_yaxis_transform(), **below)
 
 
-def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame", n_p: int) -> Figure:
+def figure_7(
+    n_p: int,
+    correlation: "pd.DataFrame",
+    lengths: "pd.DataFrame",
+    edges: "pd.DataFrame | None" = None,
+) -> Figure:
     """Draw a) c_x(r) and c_y(r) for one n_p, b) with their fits, and c) their lengths over n_p.
 
-    `correlation` and `lengths` are tables of the schemas CORRELATION and CORRELATION_LENGTH. Drawn
-    are square pillars with equal gaps on the surface that comes first, with the study's constants.
+    `correlation`, `lengths` and `edges` are the tables correlation, correlation_length and
+    precursors. Drawn are square pillars with equal gaps on the surface that comes first, with the
+    study's constants.
     """
     correlation, lengths = _equal_gaps(correlation), _equal_gaps(lengths)
     correlation = correlation[correlation["n_p"] == n_p]
@@ -199,18 +206,31 @@ def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame", n_p: int) -> 
             curves.draw_band(ax, part["r"], values, **look)
         fits: Any = shown.loc[str(side)]
         _draw_fits(log, str(side), curve, fits)
+    if edges is not None:
+        _draw_chain(log, edges)
     linear.axhline(0.0, **curves.ZERO)
     log.plot([], [], color=GREY, label=_EXPONENTIAL)
     log.plot([], [], color=GREY, label=_FREE, **_DASHED)
     log.set(yscale="log", ylim=(_LEAST, 1.1))
+    log_end = 1.0 + correlation["r"][correlation["ci_low"] > 0.0].max()
     log.yaxis.set_major_formatter("{x:g}")
     for ax in (linear, log):
         ax.set(xlabel="distance along the side $r$ (blocks)", ylabel="time correlation $c(r)$")
-        ax.set_xlim(0.0, None)
+        ax.set_xlim(0.0, log_end if ax is log else None)
         ax.xaxis.set_major_locator(MaxNLocator(integer=True, steps=[1, 2, 5, 10]))
     _draw_lengths(sizes, lengths[lengths["side"] == "x"])
+    sizes.axhline(_PAPERS_LENGTH, color=GREY, linestyle=":", zorder=0)
     style.legend_above(picture, log, sizes, ncols=6)
     return picture
+
+
+def _draw_chain(ax: Axes, edges: "pd.DataFrame") -> None:
+    """Draw c(r) of the chain on edges along x and y, where it exceeds the foot of the axis."""
+    paper = edges[(edges["what"] == "paper") & edges["quantity"].str.match(r"c_\d+$")]
+    for edge, side in (("along", "x"), ("across", "y")):
+        part = paper[(paper["edge"] == edge) & (paper["predicted"] > _LEAST)]
+        r = part["quantity"].str.removeprefix("c_").astype(int)
+        ax.plot(r, part["predicted"], "x", color=BLACK, label="chain" if side == "x" else None)
 
 
 def _equal_gaps(table: "pd.DataFrame") -> "pd.DataFrame":
