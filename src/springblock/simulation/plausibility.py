@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Iterable, Iterator
+from functools import cache
 
 from springblock.model.surface import Surface
 from springblock.provenance import study
@@ -14,12 +15,14 @@ _LOADING = 10
 #: Largest static friction over the largest coefficient; inertia of the paper's blocks adds little.
 _LARGEST = 1.5
 
+_warn_once = cache(warnings.warn)  # Python forgets what it has shown when others change its filters
+
 
 def warn(doubts: Iterable[str]) -> None:
     """Warn, once of each, unless the run is a job of a study, whose report says so."""
     for doubt in doubts:
         if not study():
-            warnings.warn(doubt, stacklevel=1)  # Python shows a text once for each place
+            _warn_once(doubt)
 
 
 def of_input(surface: Surface, setup: Setup) -> Iterator[str]:

@@ -139,7 +139,6 @@ def _snapshot(motion: Motion) -> Array:
 def _result(motion: Motion, snapshots: list[Array], at_samples: list[int]) -> Realisation:
     """Return the results in SI units."""
     grid, setup, blocks = motion.constants.grid, motion.setup, motion.state.blocks
-    surface, force = motion.surface, motion.force
     material, step = setup.material, setup.step
     n_y, n_x = grid.shape
     t_det = unpadded(blocks.t_det, grid)  # in steps
@@ -151,6 +150,7 @@ def _result(motion: Motion, snapshots: list[Array], at_samples: list[int]) -> Re
     energy = _energy(motion, velocity, heat)
     if not math.isfinite(energy.relative_residual):
         raise SimulationError(f"at t = {time[-1]:.4g} s the energy is {energy}")
+    surface, force = motion.surface, motion.force
     in_contact = t_det[surface.contact]
     end = end_of_onset(force, in_contact, surface, setup)
     kept = np.array(snapshots).reshape(-1, 3, 2, n_y, n_x)
