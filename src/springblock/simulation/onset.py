@@ -76,6 +76,6 @@ def friction_of_sliding(
     """
     contact, since = surface.contact, _SLIDING * float(t_det.max())
     drop = (surface.mu_static - surface.mu_dynamic)[contact].mean()
-    if not time[-1] - since >= setup.loading_time(contact, float(drop)):
+    if not time[-1] - since >= setup.loading_time(contact, max(float(drop), 0.0)):
         return math.nan
     return float(friction[time >= since].mean())

@@ -52,7 +52,7 @@ def of_input(surface: Surface, setup: Setup) -> Iterator[str]:
 def of_run(surface: Surface, setup: Setup, run: Run) -> Iterator[str]:
     """Yield doubts about the results of a run."""
     found, strongest = run.static_friction, surface.strongest
-    if found > _LARGEST * strongest and not _is_quick(surface, setup):
+    if 0.0 < _LARGEST * strongest < found and not _is_quick(surface, setup):
         yield (
             f"static friction = {found:.3g} exceeds the largest coefficient, {strongest:.3g}, by "
             "more than half: it is that of inertia and damping; check pressure, slider_velocity "
