@@ -67,6 +67,6 @@ def test_the_command_warns_on_stderr_and_shows_angles_in_degrees(tmp_path):
     called = subprocess.run(
         [sys.executable, "-m", "springblock", *words], capture_output=True, text=True, check=True
     )
-    assert called.stderr.startswith("warning: static friction of a pattern under the law coulomb")
+    assert called.stderr.startswith("warning: under the law coulomb static friction")
     assert called.stderr.count("warning") == 1
     assert called.stdout.endswith("sliding at 1.57°\n")

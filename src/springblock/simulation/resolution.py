@@ -44,9 +44,9 @@ def lattice(material: Material) -> str:
         return ""
     finest = material.thickness / LAYERS
     return (
-        f"static friction of a pattern under the law {material.law} depends on the spacing of the "
-        f"lattice, but not under slip_weakening from spacing = {finest:.2g} m downwards; "
-        "`springblock refine` compares spacings (docs/continuum.md)"
+        f"under the law {material.law} static friction of patterned surfaces depends on the "
+        "spacing of the lattice; under slip_weakening a lattice is fine enough from spacing = "
+        f"{finest:.2g} m down; compare spacings with `springblock refine` (docs/continuum.md)"
     )
 
 
