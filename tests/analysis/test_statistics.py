@@ -142,6 +142,7 @@ def test_the_lesser_peak_is_measured_from_the_valley():
     assert prominence(np.array([0.0, 10.0, 9.6, 9.8, 0.0])) == pytest.approx(0.02)
     assert prominence(np.array([0.0, 10.0, 0.0])) == 0.0
     assert prominence(np.array([0.0, 10.0, 2.0, 5.0, 0.0])) == 0.0  # not under load
+    assert prominence(np.array([0.0, 10.0, 9.6, 10.0, 0.0])) == pytest.approx(0.04)
     three = np.array([0.0, 10.0, 9.2, 9.8, 9.5, 9.6, 0.0])
     assert [prominence(three, rank) for rank in (1, 2, 3)] == pytest.approx([1.0, 0.06, 0.01])
 
@@ -204,6 +205,7 @@ X = np.arange(100.0)
         (two_peaks(lesser=0.899, valley=0.5), 0.0, [1]),
         (two_peaks(lesser=0.95, valley=0.9399), 0.0, [1, 3]),  # a hundredth above the valley
         (two_peaks(lesser=0.95, valley=0.9401), 0.0, [1]),
+        (two_peaks(lesser=1.0, valley=0.995), 0.0, [1]),  # equal to the bit, the first is higher
     ],
 )
 def test_load_peaks_are_found_at_the_maxima_of_the_force(curve, scatter, peaks):

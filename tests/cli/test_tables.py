@@ -139,6 +139,10 @@ def test_directions_are_compared_with_the_smallest_angle(springblock, batch, tmp
     springblock("table", *files, "--changes", "--of", "t_max", "--output", output)
     ends = [(row["from"], row["to"]) for row in written(output)]
     assert ends == [("direction = -20", angle) for angle in ("x", "30", "45", "y")]
+    said = springblock("table", *files)
+    assert "45°" in said
+    assert "warning" not in said
+    assert "law coulomb" in springblock("table", batch(0, 1, "--n-p", 3, "--n-s", 3))
 
 
 LAW = """

@@ -244,7 +244,7 @@ def batch(file: Path, runs: list[Record]) -> Path:
     rows = [
         summary(run)
         | {name: getattr(run, name) for name in ("force", "detachments", "switches")}
-        | {"normal_force": run.normal_force}
+        | {name: getattr(run, name) for name in ("normal_force", "onset_end")}
         | {name: getattr(run, name).ravel() for name in ("t_det", "contact", "snapshots")}
         for run in runs
     ]

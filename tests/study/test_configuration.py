@@ -265,14 +265,13 @@ def test_one_realisation_suffices_without_scatter():
     scatter = {"mu_static_std": [0.0], "mu_dynamic_std": [0.0]}
     grid = {"n_p": [6], "n_s": [6], "material": scatter, "direction": ["x"], "seeds": 1}
     check(changed("scenes.own", to=grid), SCHEMA)
-    for group, changes in (
-        ("own", {"material": scatter | {"mu_dynamic_std": [0.05]}}),
-        ("own", {"seeds": 2}),
-        ("pillars", {}),
+    too_few = "seeds must be at least 3, for correlations on pillars of 6"
+    for group, changes, message in (
+        ("own", {"material": scatter | {"mu_dynamic_std": [0.05]}}, too_few),
+        ("own", {"seeds": 3}, "without scatter c"),
+        ("pillars", {}, "without scatter c"),
     ):
-        with pytest.raises(
-            ValueError, match="seeds must be at least 3, for correlations on pillars of 6"
-        ):
+        with pytest.raises(ValueError, match=message):
             check(changed(f"scenes.{group}", to=grid | changes), SCHEMA)
 
 

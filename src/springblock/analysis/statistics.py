@@ -273,13 +273,25 @@ def load_peaks(curve: Array, scatter: ArrayLike) -> NDArray[np.intp]:
 
     The prominence of a peak must be at least two standard errors of the mean, `scatter`, and
     `PROMINENT` of the largest force, which excludes the waves of loading; its force must be at
-    least `_LOAD_PEAK` of the largest force, which excludes those of sliding on flat surfaces (on
-    others a run ends at the first of these).
+    least `_LOAD_PEAK` of the largest force, which excludes those of sliding.
     """
-    from scipy.signal import find_peaks  # slow to import, and few figures need it
-
+    peaks, prominences = _peaks(curve)
     needed = np.maximum(2.0 * np.broadcast_to(scatter, curve.shape), PROMINENT * curve.max())
-    return find_peaks(curve, prominence=needed, height=_LOAD_PEAK * curve.max())[0]
+    return peaks[prominences >= needed[peaks]]
+
+
+def _peaks(curve: Array) -> tuple[NDArray[np.intp], Array]:
+    """Return the indices of all peaks of at least `_LOAD_PEAK` of the largest force, prominences.
+
+    Of several largest ones that are equal to the bit, the first counts as the highest.
+    """
+    from scipy.signal import find_peaks, peak_prominences  # slow to import
+
+    highest = curve.max()
+    peaks, _ = find_peaks(curve, height=_LOAD_PEAK * highest)
+    largest = peaks[curve[peaks] == highest]
+    after = np.searchsorted(largest[:-1], np.arange(len(curve)))
+    return peaks, peak_prominences(curve - np.spacing(highest) * after, peaks)[0]
 
 
 def prominence(curve: Array, rank: int = 2) -> float:
@@ -288,12 +300,8 @@ def prominence(curve: Array, rank: int = 2) -> float:
     This is the drop of the force between two load peaks, from the lower of them; 0 for a single
     peak. `rank` selects another peak, in descending order of prominence.
     """
-    from scipy.signal import find_peaks  # slow to import, and few figures need it
-
-    highest = float(curve.max())
-    _, found = find_peaks(curve, prominence=0.0, height=_LOAD_PEAK * highest)
-    prominences = np.sort(found["prominences"])
-    return float(prominences[-rank]) / highest if len(prominences) >= rank else 0.0
+    found = np.sort(_peaks(curve)[1])
+    return float(found[-rank]) / float(curve.max()) if len(found) >= rank else 0.0
 
 
 class Peaks(NamedTuple):
@@ -306,13 +314,11 @@ class Peaks(NamedTuple):
 
 def both_peaks(curve: Array) -> Peaks | None:
     """Find the two most prominent load peaks of a force curve, (n,); None with fewer than two."""
-    from scipy.signal import peak_prominences  # slow to import, and few figures need it
-
-    peaks = load_peaks(curve, 0.0)
-    if len(peaks) < 2:
+    peaks, prominences = _peaks(curve)
+    order = np.argsort(prominences)[-2:]
+    if len(order) < 2 or prominences[order[0]] < PROMINENT * curve.max():
         return None
-    prominences, *_ = peak_prominences(curve, peaks)
-    first, second = sorted(map(int, peaks[np.argsort(prominences)[-2:]]))
+    first, second = sorted(map(int, peaks[order]))
     return Peaks(first, first + int(np.argmin(curve[first:second])), second)
 
 

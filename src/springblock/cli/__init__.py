@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import traceback
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -107,6 +108,7 @@ class _LazyGroup(click.Group):
         os.environ["MPLBACKEND"] = "agg"  # that of a notebook's kernel may be unknown here
         os.environ.pop("NUMBA_DISABLE_JIT", None)  # kernels have parts that are only compiled
         use_long_vectors()
+        warnings.formatwarning = lambda message, *_, **__: f"warning: {message}\n"
         command: click.Command = resolve_name(COMMANDS[cmd_name])
         return command
 

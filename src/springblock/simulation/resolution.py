@@ -1,8 +1,7 @@
-"""Whether a lattice resolves slip weakening, and whether blocks slip only once before the peak."""
+"""Whether friction depends on the lattice, and whether blocks slip only once before the peak."""
 
-import logging
 import math
-from functools import cache
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -15,10 +14,10 @@ BLOCKS, LAYERS = 6, 4
 #: Decay length over l_z of a layer with K_s of the model, across the sliding direction: the shorter
 #: one.
 _DECAY = math.sqrt(0.5)
+#: Laws whose static friction on patterns depends on the lattice, however fine it is.
+_WITHOUT_LENGTH = ("coulomb", "velocity_weakening")
 #: Switches to sliding per block that has slipped, above which blocks slip more than once.
 _SWITCHES = 1.05
-
-_warn_once = cache(logging.getLogger(__name__).warning)
 
 
 def kappa(material: Material, fraction: float) -> float:
@@ -39,21 +38,33 @@ def process_zone(decay: float, kappa: float) -> float:
     return math.pi / 2.0 * decay * math.sqrt(kappa / (1.0 - kappa)) if kappa < 1.0 else math.inf
 
 
-def warn(surface: Surface, material: Material, run: Run) -> None:
-    """Warn, once for a material, where slip weakening depends on the lattice or on healing."""
+def lattice(material: Material) -> str:
+    """Return a warning that friction of patterned surfaces depends on the lattice, or ""."""
+    if material.law not in _WITHOUT_LENGTH:
+        return ""
+    finest = material.thickness / LAYERS
+    return (
+        f"under the law {material.law} static friction of patterned surfaces depends on the "
+        "spacing of the lattice; under slip_weakening a lattice is fine enough from spacing = "
+        f"{finest:.2g} m down; compare spacings with `springblock refine` (docs/continuum.md)"
+    )
+
+
+def doubts(surface: Surface, material: Material, run: Run) -> Iterator[str]:
+    """Yield where slip weakening depends on the lattice or on healing."""
     if material.law != "slip_weakening" or surface.contact.size == 1:  # which has no front
         return
     zone = process_zone(_DECAY * material.thickness, kappa(material, surface.contact.mean()))
     finest = min(zone / BLOCKS, material.thickness / LAYERS)
     if material.spacing > finest * (1.0 + 1e-9):
-        _warn_once(
+        yield (
             f"spacing = {material.spacing:g} m does not resolve slip_distance = "
             f"{material.slip_distance:g} m; choose at most {finest:.2g} m (docs/continuum.md)"
         )
-    last = int(np.argmax(run.force)) + 1
+    last = int(np.argmax(run.force[run.onset])) + 1
     again = run.switches[:last].sum() > _SWITCHES * run.detachments[:last].sum()
     if again and material.healing == "instant":
-        _warn_once(
+        yield (
             f"with gamma = {material.gamma:g} 1/s and slip_distance = {material.slip_distance:g} m "
             "blocks stop, heal and slip again before the force peaks; compare with healing: none"
         )

@@ -120,6 +120,15 @@ def test_means_are_those_of_ensembles_with_the_constants_of_the_study(springbloc
     assert "2 realisations" in said
 
 
+def test_a_report_on_own_patterns_says_that_friction_depends_on_the_lattice(springblock, tmp_path):
+    table = tmp_path / "realisations.parquet"
+    for pattern, is_said in ((), False), (("--n-p", 4, "--n-s", 4), True):
+        scene = "--n-blocks", 8, *pattern
+        springblock("simulate", *scene, "--duration", 2e-6, "--output", tmp_path / "own")
+        springblock("aggregate", tmp_path / "own", "--output", table)
+        assert ("depends on the spacing" in page([table], {}, own=True)) == is_said
+
+
 def test_captions_are_those_that_pictures_keep(picture):
     declared = FIGURES["figure_6"]
     shown = media.picture(picture("figure_6.png", f"{declared.caption} N = 120, seeds 0 to 19."))

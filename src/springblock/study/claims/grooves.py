@@ -97,11 +97,12 @@ def prominent(
 ) -> Finding:
     """Return the prominence of the load peak of a rank in the mean force of all realisations.
 
-    A run that has ended counts with its last force, which lies below its peaks.
+    A run whose onset has ended counts with its last force, which lies below its peaks.
     """
     runs = evidence.records[scene]
-    longest = max(len(run.force) for run in runs)
-    forces = np.stack([np.pad(r.force, (0, longest - len(r.force)), mode="edge") for r in runs])
+    onsets = [run.force[run.onset] for run in runs]
+    longest = max(map(len, onsets))
+    forces = np.stack([np.pad(f, (0, longest - len(f)), mode="edge") for f in onsets])
 
     def of_mean(weights: Array) -> Array:
         return np.array([prominence(curve, rank) for curve in weights @ forces])
@@ -159,7 +160,7 @@ def twice_peaked(records: Records) -> dict[Scene, list[Twice]]:
     Scenes are grooved pillars that slide along their grooves, and were also slid across them.
     """
     found = {
-        scene: [(run, peaks) for run in runs if (peaks := both_peaks(run.force))]
+        scene: [(run, peaks) for run in runs if (peaks := both_peaks(run.force[run.onset]))]
         for scene, runs in slid_both_ways(records).items()
     }
     return {s: twice for s, twice in found.items() if len(twice) > 0.5 * len(records[s])}

@@ -192,7 +192,7 @@ def _row(series: Series, n: int, seed: int, predicted: float) -> Row:
         "predicted": predicted,
         "simulated": run.static_friction,
         "switches": run.switches[:last].sum() / max(run.detachments[:last].sum(), 1),
-        "prominence": prominence(friction(run)),
+        "prominence": prominence(friction(run)[run.onset]),
     }
 
 

@@ -269,7 +269,10 @@ def figure_9(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
     Rows in descending order of their clearest second load peak.
     """
     found = {key: statistics.whole_curve(runs) for key, runs in sorted(ensembles.items())}
-    falls = {key: [statistics.prominence(friction(run)) for run in ensembles[key]] for key in found}
+    falls = {
+        key: [statistics.prominence(friction(run)[run.onset]) for run in ensembles[key]]
+        for key in found
+    }
     clearest = sorted(falls, key=lambda key: -np.mean(falls[key]))
     rows = list(dict.fromkeys(key[:-1] for key in clearest))
     letters = [ascii_lowercase[2 * i : 2 * i + 2] for i in range(len(rows))]
