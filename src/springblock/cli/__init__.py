@@ -22,6 +22,7 @@ COMMANDS = {
     "prelude": "springblock.cli.simulate:prelude",
     "simulate": "springblock.cli.simulate:simulate_batch",
     "sweep": "springblock.cli.sweep:sweep",
+    "refine": "springblock.cli.refine:refine_lattice",
     "plot": "springblock.cli.pictures:plot",
     "animate": "springblock.cli.pictures:animate",
     "show": "springblock.cli.pictures:show",

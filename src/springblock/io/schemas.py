@@ -71,6 +71,7 @@ SUMMARY = pa.schema(
         column("seed", pa.int64(), "1", "seed of the friction coefficients"),
         *numbers(
             "1",
+            contact_fraction="share of the blocks in contact",
             static_friction="largest friction force of the onset over the normal force",
             dynamic_friction="mean friction force over the normal force from 1.5 times the largest "
             "t_det on; NaN unless this lasts for one reloading",

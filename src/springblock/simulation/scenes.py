@@ -51,6 +51,7 @@ def columns_of(run: Realisation, scene: Scene, seed: int) -> dict[str, Any]:
     """Return the columns of a run in a table, besides those of its scene."""
     return {
         "seed": seed,
+        "contact_fraction": float(scene.contact.mean()),
         **{name: getattr(run, name) for name in _OF_RUN},
         "energy_error": run.energy.relative_residual,
         "t_det": run.t_det.ravel(),

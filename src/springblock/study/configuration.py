@@ -252,7 +252,7 @@ def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[t
         raise ValueError(f"{name} is not a constant of the material; give it beside `material`")
     if "law" in material:  # which has its own constants
         usual = {name: usual[name] for name in usual.keys() & FIELDS.keys() - set(OF_LAWS)}
-    if "mask" in grid or "topography" in grid:  # which then gives N
+    if grid.keys() & {"mask", "topography", "texture"}:  # which then gives N
         del usual["n_blocks"]
     own = {name: grid[name] for name in grid.keys() - {"material", "seeds"}}
     own |= {"snapshot_times": [tuple(grid.get("snapshot_times", ()))]}
