@@ -10,16 +10,10 @@ from tqdm import tqdm
 from springblock.model.direction import heading
 from springblock.model.numbers import Array
 from springblock.model.surface import Surface
-from springblock.simulation import plausibility
+from springblock.simulation import onset, plausibility
 from springblock.simulation.energy import Energy, elastic_energy
 from springblock.simulation.fields import Fields
 from springblock.simulation.motion import Motion, SimulationError
-from springblock.simulation.onset import (
-    between_looks,
-    end_of_onset,
-    friction_of_sliding,
-    known_at,
-)
 from springblock.simulation.prelude import Prelude, conditions
 from springblock.simulation.run import Realisation
 from springblock.simulation.setup import DEFAULT, Setup, check_type
@@ -82,7 +76,7 @@ def simulate(
     surface.check_material(setup.material)
     contact, strongest = surface.contact, surface.strongest
     last_sample, at_samples = setup.plan(contact, strongest, duration, snapshot_times)
-    latest, between = _LATEST * setup.loading_time(contact, strongest), between_looks(setup)
+    latest, between = _LATEST * setup.loading_time(contact, strongest), onset.between_looks(setup)
     plausibility.warn(plausibility.of_input(surface, setup))
 
     motion, snapshots = Motion(surface, setup, direction), list[Array]()
@@ -117,7 +111,7 @@ def _is_over(motion: Motion, last_sample: int | None, latest: float) -> bool:
     blocks, now = motion.state.blocks, motion.steps * motion.setup.step
     t_det = blocks.t_det[blocks.static > 0.0]
     if np.isfinite(t_det).all():
-        return end_of_onset(motion.force, t_det, motion.surface, motion.setup) is not None
+        return onset.end_of_onset(motion.force, t_det, motion.surface, motion.setup) is not None
     if now > latest:
         stuck = int(np.isinf(t_det).sum())
         raise SimulationError(
@@ -142,7 +136,7 @@ def _result(motion: Motion, snapshots: list[Array], at_samples: list[int]) -> Re
     material, step = setup.material, setup.step
     n_y, n_x = grid.shape
     t_det = unpadded(blocks.t_det, grid)  # in steps
-    detached_in = known_at(t_det[np.isfinite(t_det)], setup.every)
+    detached_in = onset.known_at(t_det[np.isfinite(t_det)], setup.every)
     time = setup.every * step * np.arange(motion.samples + 1.0)
     velocity, heat = motion.at_step()
     velocity = motion.vectors(*velocity) * material.spacing / step
@@ -150,9 +144,8 @@ def _result(motion: Motion, snapshots: list[Array], at_samples: list[int]) -> Re
     energy = _energy(motion, velocity, heat)
     if not math.isfinite(energy.relative_residual):
         raise SimulationError(f"at t = {time[-1]:.4g} s the energy is {energy}")
-    surface, force = motion.surface, motion.force
-    in_contact = t_det[surface.contact]
-    end = end_of_onset(force, in_contact, surface, setup)
+    surface, force, in_contact = motion.surface, motion.force, t_det[motion.surface.contact]
+    end = onset.end_of_onset(force, in_contact, surface, setup)
     kept = np.array(snapshots).reshape(-1, 3, 2, n_y, n_x)
     fields = Fields(
         time=setup.interval * np.array(at_samples, float),
@@ -170,7 +163,9 @@ def _result(motion: Motion, snapshots: list[Array], at_samples: list[int]) -> Re
         t_det=np.where(np.isfinite(t_det), step * t_det, np.nan),
         normal_force=load,
         onset_end=math.nan if end is None else float(time[end]),
-        dynamic_friction=friction_of_sliding(time, force / load, step * in_contact, surface, setup),
+        dynamic_friction=onset.friction_of_sliding(
+            time, force / load, step * in_contact, surface, setup
+        ),
         energy=energy,
         steps=motion.steps,
         displacement=motion.displacement(),
