@@ -268,18 +268,6 @@ def pillar_ring(size: int, depth: int) -> dict[str, NDArray[np.bool_]]:
     }
 
 
-def load_peaks(curve: Array, scatter: ArrayLike) -> NDArray[np.intp]:
-    """Return the indices of the load peaks of a force curve, (n,). Section 3.3.
-
-    The prominence of a peak must be at least two standard errors of the mean, `scatter`, and
-    `PROMINENT` of the largest force, which excludes the waves of loading; its force must be at
-    least `_LOAD_PEAK` of the largest force, which excludes those of sliding.
-    """
-    peaks, prominences = _peaks(curve)
-    needed = np.maximum(2.0 * np.broadcast_to(scatter, curve.shape), PROMINENT * curve.max())
-    return peaks[prominences >= needed[peaks]]
-
-
 def _peaks(curve: Array) -> tuple[NDArray[np.intp], Array]:
     """Return the indices of all peaks of at least `_LOAD_PEAK` of the largest force, prominences.
 
@@ -302,6 +290,30 @@ def prominence(curve: Array, rank: int = 2) -> float:
     """
     found = np.sort(_peaks(curve)[1])
     return float(found[-rank]) / float(curve.max()) if len(found) >= rank else 0.0
+
+
+def mean_onsets(runs: Sequence[Run]) -> Array:
+    """Return friction of runs up to the ends of their onsets, over the normal force, (k, n).
+
+    A run whose onset has ended counts with its last force, which lies below its peaks.
+    """
+    onsets = [friction(run)[run.onset] for run in runs]
+    longest = max(map(len, onsets))
+    return np.stack([np.pad(each, (0, longest - len(each)), mode="edge") for each in onsets])
+
+
+def prominence_of_mean(runs: Sequence[Run], rank: int = 2) -> Interval:
+    """Return the prominence of a load peak of the mean force of runs, with its 95 % BCa interval.
+
+    Fluctuations make the prominence of resamples larger: the interval includes the value.
+    """
+    forces = mean_onsets(runs)
+
+    def of_mean(weights: Array) -> Array:
+        return np.array([prominence(curve, rank) for curve in weights @ forces])
+
+    value, low, high = bootstrap_interval(of_mean, len(runs))
+    return Interval(value, np.minimum(low, value), np.maximum(high, value))
 
 
 class Peaks(NamedTuple):

@@ -42,7 +42,7 @@ _NUMBER = re.compile(r"[-+]?(?!0[0-9])([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+
 #: Words of YAML and their values.
 _YAML_WORDS = {"true": True, "false": False, "null": None}
 #: Groups of the paper's figures, with the level of their scenes.
-_LEVELS = {"flat": 0, "pillars": 1, "grooves": 2}
+_LEVELS = {"flat": 0, "pillars": 1, "grooves": 2, "other_grooves": 2}
 #: Validator for which 24.0 is not an integer, as in Python.
 _Validator = jsonschema.validators.extend(
     jsonschema.Draft202012Validator, type_checker=jsonschema.Draft4Validator.TYPE_CHECKER

@@ -12,7 +12,6 @@ from springblock import Setup
 from springblock.model.defaults import PAPER_STEP, STEP
 from springblock.study.accuracy.conventions import (
     ENSEMBLE,
-    MEANS,
     PLAIN,
     SCENES,
 )
@@ -103,7 +102,7 @@ def check_points(ax, wanted):
 def test_every_single_run_is_shown(letter, scene):
     wanted = chosen(table(), comparison="reference", scene=scene, quantity="t_det before horizon")
     assert len(wanted) == 20
-    check_points(panel(letter), wanted[["force_evaluations", "error"]])
+    check_points(panel(letter), wanted[["cpu_seconds", "error"]])
 
 
 def test_rings_mark_the_default_and_the_paper():
@@ -113,30 +112,12 @@ def test_rings_mark_the_default_and_the_paper():
     marked = ((default.integrator, default.step), (PLAIN, PAPER_STEP))
     for ring, (integrator, step) in zip(rings, marked, strict=True):
         row = chosen(runs, integrator=integrator, step=step)
-        assert ring.get_xydata().tolist() == row[["force_evaluations", "error"]].values.tolist()
+        assert ring.get_xydata().tolist() == row[["cpu_seconds", "error"]].values.tolist()
 
 
-@pytest.mark.parametrize(("letter", "scene"), list(zip("def", SCENES, strict=True)))
-def test_biases_are_shown_over_seconds_in_standard_errors_of_the_usual_mean(letter, scene):
-    """Of all quantities and of steps up to twice the default, which has a ring."""
-    ax = panel(letter)
-    rows = production_table()
-    rows = rows[(rows.step <= 4e-8) & rows.quantity.isin(MEANS)]
-    shown = chosen(rows, scene=scene)
-    errors = ENSEMBLE**0.5 / 10.0  # of a deviation of 10
-    drawn_points = np.vstack([bars.lines[0].get_xydata() for bars in ax.containers])
-    assert len(drawn_points) == len(shown) == 3 * 4
-    assert sorted(drawn_points[:, 1]) == pytest.approx(sorted(errors * shown.bias))
-    assert drawn_points[:, 0].min() == pytest.approx(shown.cpu_seconds.min(), rel=0.1)
-    assert drawn_points[:, 0].max() == pytest.approx(shown.cpu_seconds.max(), rel=0.1)
-    bars = np.vstack([b for c in ax.collections for b in c.get_segments()])
-    ends = sorted(errors * pd.concat([shown.ci_low, shown.ci_high]))
-    assert sorted(bars[:, 1]) == pytest.approx(ends)
-    assert visible(ax, bars)
-    (band,) = ax.patches
-    assert (band.get_y(), band.get_height()) == (-1.0, 2.0)
-    rings = [line for line in ax.lines if line.get_fillstyle() == "none"]
-    default = chosen(shown, step=STEP)
-    assert [ring.get_ydata().item() for ring in rings] == pytest.approx([*(errors * default.bias)])
-    names = [text.get_text() for text in ax.texts]
-    assert sorted(names) == ["10 ns", "20 ns", "40 ns", "5 ns"]
+def test_the_band_is_the_standard_error_of_the_usual_mean():
+    for letter, scene in zip("abc", SCENES, strict=True):
+        (row,) = chosen(production_table(), scene=scene, quantity="t_avg", step=STEP).itertuples()
+        (band,) = panel(letter).patches
+        top = band.get_y() + band.get_height()
+        assert top == pytest.approx(row.deviation / row.value / ENSEMBLE**0.5)
