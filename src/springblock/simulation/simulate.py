@@ -105,7 +105,7 @@ def simulate(
             motion.proceed(pause)
             bar.update(motion.samples - bar.n)
     run = _result(motion, snapshots, at_samples)
-    resolution.warn(surface, setup.material, run)
+    resolution.warn(surface, setup.material, direction, run)
     return run
 
 
