@@ -19,7 +19,8 @@ from springblock.model.material import Material
 from springblock.model.numbers import Array
 from springblock.model.surface import Surface
 from springblock.simulation.resolution import DECAY, ZONE
-from springblock.simulation.run import friction
+from springblock.simulation.prelude import compute_prelude
+from springblock.simulation.run import Run, friction
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
 from springblock.solver.integrators import limit
@@ -56,6 +57,7 @@ class Series:
     wave: float = 0.0  #: of mu_static over its mean, one pillar long along sliding
     pillars: int = 1  #: along a side
     seeds: tuple[int, ...] = (0,)
+    step: float = 0.5  #: over the longest stable one
     predicted: bool = True
 
     @property
@@ -98,8 +100,8 @@ class Series:
         return groups.friction(Cell(quarter[0], layer, quarter[1]).excess(*groups.numbers))
 
     def setup(self) -> Setup:
-        """Return the setup, with half of the longest stable step."""
-        step = float(f"{0.5 * limit('leapfrog', self.material):.1g}")
+        """Return the setup, with its step rounded to a digit."""
+        step = float(f"{self.step * limit('leapfrog', self.material):.1g}")
         return Setup(self.material, step=step, sample_interval=20.0 * step)
 
     def cell(self, n: int) -> tuple[NDArray[np.bool_], Array]:
@@ -197,14 +199,14 @@ def _healing() -> Iterator[Series]:
 
 
 def _disorder() -> Iterator[Series]:
-    """Yield disorder of single blocks, and correlated over l_z; the paper's scatter and damping."""
+    """Yield the paper's scatter and damping, and disorder that is correlated over l_z."""
     drawn = replace(PLAIN, spacing=2.5e-6, mu_static_std=0.1, mu_dynamic_std=0.05)
-    series = partial(Series, "square", widths=(3, 4, 6, 8, 10, 15), predicted=False)
-    for kind, length in {"independent": 0.0, "correlated": 1e-5}.items():
-        material = replace(drawn, correlation_length=length)
-        yield series(f"disorder, {kind}", material, pillars=2, seeds=tuple(range(4)))
-    paper = replace(drawn, spacing=1.25e-6, gamma=Material.gamma)
-    yield series("disorder, the paper's", paper, seeds=tuple(range(20)))
+    series = partial(Series, "square", predicted=False)
+    fast = replace(drawn, spacing=1.25e-6, gamma=Material.gamma, slider_velocity=2.5e-3)
+    sizes, seeds = (3, 4, 6, 8, 10, 15), tuple(range(20))
+    yield series("disorder, independent", fast, widths=sizes, seeds=seeds, step=0.8)
+    slow, sizes = replace(drawn, correlation_length=1e-5), (2, 4, 6, 10, 15)
+    yield series("disorder, correlated", slow, widths=sizes, pillars=2, seeds=(0, 1, 2, 3))
 
 
 SERIES = {
@@ -241,12 +243,15 @@ def measure(part: str) -> Iterator[Row]:
     for series in tqdm(SERIES[part], desc=part, unit="series"):
         for n in series.blocks:
             predicted = series.prediction(n) if series.predicted else math.nan
-            yield from (_row(series, n, seed, predicted) for seed in series.seeds)
+            setup, along = series.setup(), "y" if series.shape == "along" else "x"
+            contact = series.surface(n, 0).contact
+            prelude = compute_prelude(contact, setup, along, periodic=True)
+            for seed in series.seeds:
+                run = simulate(series.surface(n, seed), setup, along, prelude=prelude)
+                yield _row(series, n, seed, predicted, run)
 
 
-def _row(series: Series, n: int, seed: int, predicted: float) -> Row:
-    along = "y" if series.shape == "along" else "x"
-    run = simulate(series.surface(n, seed), series.setup(), along)
+def _row(series: Series, n: int, seed: int, predicted: float, run: Run) -> Row:
     last = int(np.argmax(run.force)) + 1
     return known(series, n) | {
         "seed": seed,
