@@ -18,8 +18,8 @@ from springblock.io.schemas import SCENE, column, numbers, texts
 from springblock.model.material import Material
 from springblock.model.numbers import Array
 from springblock.model.surface import Surface
-from springblock.simulation.resolution import DECAY, ZONE
 from springblock.simulation.prelude import compute_prelude
+from springblock.simulation.resolution import DECAY, ZONE
 from springblock.simulation.run import Run, friction
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
