@@ -28,13 +28,11 @@ full: setup
 	$(BIN)/snakemake --configfile config/full.yaml
 
 # Pages and pictures in docs, and the findings in README and reports, from the whole study.
-FINDINGS := src/springblock/report/findings.md
+FINDINGS := src/springblock/study/findings/full_study.md
 docs: full
-	cp results/accuracy.md results/claims.md results/mechanism.md results/continuum.md docs
+	cp results/accuracy.md results/applicability.md results/claims.md results/continuum.md results/mechanism.md docs
 	cp results/figures/figure_6.png results/figures/continuum_friction.png docs
-	$(BIN)/springblock make applicability results/tables/realisations.parquet --output docs/applicability.md
-	$(BIN)/springblock make findings results/tables/claims.parquet results/tables/realisations.parquet \
-	    results/tables/continuum.parquet results/tables/production.parquet --output $(FINDINGS)
+	cp results/findings.md $(FINDINGS)
 	sed -e '/^<!-- findings/,/^<!-- end/{/^<!--/!d;}' -e '/^<!-- findings/r $(FINDINGS)' README.md > results/README.md
 	mv results/README.md README.md
 	$(BIN)/springblock simulate --n-blocks 120 --n-p 20 --n-s 20 --output results/front.parquet

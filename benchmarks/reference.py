@@ -36,12 +36,12 @@ from scipy.integrate import DOP853, DenseOutput
 from scipy.optimize import brentq
 from tqdm import tqdm
 
-from springblock.accuracy import solutions
-from springblock.accuracy.conventions import SAMPLE_INTERVAL
 from springblock.io.parquet import load, rows_to_table, write
 from springblock.model.material import Material
 from springblock.model.numbers import Array
 from springblock.model.surface import Surface
+from springblock.study.accuracy import solutions
+from springblock.study.accuracy.conventions import SAMPLE_INTERVAL
 
 Flags = NDArray[np.bool_]
 

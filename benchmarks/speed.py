@@ -26,15 +26,14 @@ from tqdm import tqdm
 from benchmarks.peers import c_loop, lammps_lattice
 from benchmarks.timing import Array, Missing, Runs, interleaved
 from springblock import Surface, compute_prelude, draw_friction, simulate
-from springblock.accuracy import plain_rk4
-from springblock.accuracy.conventions import PAPER_STEP
-from springblock.model.defaults import SAMPLE_INTERVAL
+from springblock.model.defaults import PAPER_STEP, SAMPLE_INTERVAL
 from springblock.model.scene import Scene
-from springblock.provenance import code_version
+from springblock.provenance import SIMULATE, code_version
 from springblock.simulation.setup import PAPER
 from springblock.solver.integrators import INTEGRATORS
 from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.solver.loop import advance
+from springblock.study.accuracy import plain_rk4
 
 N = 120
 STEPS = 300  #: of a kernel in one repetition, some 50 ms
@@ -194,7 +193,7 @@ def machine() -> str:
     model = re.search(r"model name\s*: (.*)", file.read_text()) if file.exists() else None
     packages = (f"{name} {metadata.version(name)}" for name in ("numba", "llvmlite", "numpy"))
     processor = model[1] if model else platform.processor() or platform.machine()
-    return ", ".join([processor, *packages, f"springblock {code_version('simulate')}"])
+    return ", ".join([processor, *packages, f"springblock {code_version(SIMULATE)}"])
 
 
 @click.command()

@@ -12,7 +12,7 @@ from hypothesis import settings
 
 if numba.config.DISABLE_JIT:
     import interpreted  # noqa: F401
-from springblock.cli import main
+from springblock.__main__ import main
 from studies import Study
 
 # The same draws in every run.

@@ -2,10 +2,11 @@
 
 from itertools import product
 
-from springblock.accuracy.conventions import DELAY, LENGTH, MEANS, PAPER_STEP, PLAIN, SCENES
-from springblock.accuracy.production import STEPS, UNITS
 from springblock.io.identity import identity
+from springblock.model.defaults import PAPER_STEP
 from springblock.model.scene import Scene
+from springblock.study.accuracy.conventions import DELAY, LENGTH, MEANS, PLAIN, SCENES
+from springblock.study.accuracy.production import STEPS, UNITS
 
 QUANTITIES = [
     "force",

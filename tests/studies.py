@@ -22,8 +22,7 @@ GROOVES = {"n_p": [5], "n_s": [7], "n_p2": [1], "n_s2": [1]}
 TINY = {
     "n_blocks": 12,
     "realisations_per_job": 2,
-    "accuracy": False,
-    "mechanism": False,
+    "parts": [],
     "first_seed": 0,
     "material": {**PAPER["material"], "slider_velocity": 5e-3},  # so that runs are short
     "scenes": dict.fromkeys(PAPER["scenes"])

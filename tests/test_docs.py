@@ -9,10 +9,10 @@ import click
 import pytest
 
 from springblock import Material, Realisation
-from springblock.claims import STATEMENTS
-from springblock.cli import main
+from springblock.__main__ import main
 from springblock.model.scene import FIELDS
-from springblock.report.findings import FILE
+from springblock.study.claims import STATEMENTS
+from springblock.study.findings.page import FILE
 
 ROOT = Path(__file__).parents[1]
 PAGES = {

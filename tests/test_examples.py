@@ -21,7 +21,7 @@ from matplotlib.figure import Figure
 from nbformat.v4 import new_output
 
 from springblock import Material, Setup, Surface, read, simulate
-from springblock.cli import main
+from springblock.__main__ import main
 from springblock.model.scene import Scene
 from springblock.plotting import film
 from studies import ROOT, Study

@@ -11,7 +11,7 @@ import psutil
 import pyarrow.parquet as pq
 import pytest
 
-from springblock.provenance import PLAN, planned
+from springblock.provenance import PLAN, SIMULATE, planned
 from studies import FEWER, Study
 
 TARGETS = ("simulate", "aggregate", "correlations", "figure_6")
@@ -163,7 +163,7 @@ def test_a_damaged_file_is_refused_by_name(study, springblock, tmp_path, pattern
 
 def test_code_that_changes_while_a_study_runs_is_noticed(springblock, tmp_path, monkeypatch):
     """The job compares the bytes of its sources with those of the plan; nothing is written."""
-    plan = planned("0123")
+    plan = planned("0123", [SIMULATE])
     words = "simulate", "--n-blocks", 4, "--output", tmp_path / "a.parquet"
     monkeypatch.setenv(PLAN, plan)
     springblock(*words)
@@ -206,6 +206,6 @@ def test_tables_of_another_configuration_are_refused_by_name(
     study, springblock, tmp_path, monkeypatch
 ):
     table = study.results / "tables/realisations.parquet"
-    monkeypatch.setenv(PLAN, planned("0123"))
+    monkeypatch.setenv(PLAN, planned("0123", [SIMULATE]))
     words = "make", "applicability", table, "--output", tmp_path / "a.md"
     assert f"{table} is of another configuration" in springblock(*words, refused=True)

@@ -2,6 +2,8 @@
 
 import ast
 import re
+import sys
+from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
@@ -9,8 +11,8 @@ import pytest
 
 import springblock
 from springblock import provenance
-from springblock.cli import COMMANDS
-from springblock.provenance import digest_of_data
+from springblock.provenance import ANALYSE, COMPILE, MASK, SIMULATE, digest_of_data
+from springblock.study.results import FIGURES, PAGES, TABLES, found
 
 ROOT = Path(springblock.__file__).parent
 SOURCE = '''"""A module."""
@@ -60,53 +62,43 @@ def test_formulas_and_nothing_else_change_a_digest(digest_of, old, new, is_anoth
     """Neither do comments, docstrings, the wording of errors, nor layout."""
     assert old in SOURCE
     texts = (SOURCE, SOURCE.replace(old, new))
-    before, after = (digest_of("solver/law.py", text, "compile") for text in texts)
+    before, after = (digest_of("solver/law.py", text, COMPILE) for text in texts)
     assert (before != after) == is_another
 
 
-@pytest.mark.parametrize(
-    ("name", "steps"),
-    [
-        ("pages/accuracy.md", {"accuracy.md"}),
-        ("pages/claims.md", {"claims.md"}),
-        ("report/page.html", {"report"}),
-        ("report/page.css", {"report"}),
-        ("report/page.js", {"report"}),
-        ("plotting/captions.toml", {"plot", "report"}),
-    ],
-)
-def test_a_sentence_changes_the_digest_of_its_page_alone(digest_of, name, steps):
-    for step in provenance.STEPS:
-        before, after = (digest_of(name, text, step) for text in "ab")
-        assert (before != after) == (step in steps), step
-
-
-def test_a_remark_changes_the_pages_and_a_form_the_verdicts(digest_of):
-    old, *others = (
+def test_a_remark_changes_no_verdict_and_a_form_does(digest_of):
+    old, remark, form = (
         f"[onset]\ntitle = 'It begins'\nsection = '1'\nform = '{form}'\nremark = '{remark}'"
         for form, remark in (("general", "a"), ("general", "b"), ("universal", "a"))
     )
-    pages = {"claims.md", "report"}
-    for text, expected in zip(others, (pages, pages | {"claims"}), strict=True):
-        found = {
-            step
-            for step in provenance.STEPS
-            if "claims" in provenance.STEPS[step]
-            if len({digest_of("claims/statements.toml", each, step) for each in (old, text)}) == 2
-        }
-        assert found == expected
+    (words,) = TABLES["claims"].words
+    first, second, third = (
+        digest_of(words.split()[0], text, (words,)) for text in (old, remark, form)
+    )
+    assert first == second != third
 
 
-@pytest.mark.parametrize("part", sorted(set(chain.from_iterable(provenance.STEPS.values()))))
+def test_a_caption_changes_the_digest_of_its_figure_and_of_nothing_else():
+    other = replace(FIGURES["figure_2"], caption="Another caption.")
+    assert other.digest != FIGURES["figure_2"].digest
+    assert len({each.digest for each in (*FIGURES.values(), *PAGES.values())}) == len(
+        FIGURES
+    ) + len(PAGES)
+
+
+CODES = {COMPILE, MASK, SIMULATE, ANALYSE, *(table.code for table in TABLES.values() if table.made)}
+
+
+@pytest.mark.parametrize("part", sorted(set(chain.from_iterable(CODES))))
 def test_what_a_digest_covers_exists(part):
-    assert list(ROOT.glob(part.split()[0]))
+    assert (ROOT / part.split()[0]).exists()
 
 
 def test_versions_are_compared_by_their_digests():
-    version = provenance.code_version("simulate")
-    assert version.endswith("+" + provenance.digest("simulate"))
-    assert provenance.same_code(version, "0.1.0+" + provenance.digest("simulate"))
-    assert not provenance.same_code(version, provenance.code_version("analyse"))
+    version = provenance.code_version(SIMULATE)
+    assert version.endswith("+" + provenance.digest(SIMULATE))
+    assert provenance.same_code(version, "0.1.0+" + provenance.digest(SIMULATE))
+    assert not provenance.same_code(version, provenance.code_version(ANALYSE))
 
 
 def imports(file):
@@ -154,61 +146,34 @@ def closure(files):
     return found
 
 
-#: The configuration reaches jobs as their parameters; physics changes the realisations first.
-ELSEWHERE = {"study", "model", "solver", "simulation"}
+@pytest.mark.parametrize("name", [name for name, table in TABLES.items() if table.made])
+def test_the_digest_of_a_table_covers_all_that_computes_it(name):
+    """But for the physics before, where it is computed from realisations, whose names have it."""
+    table = TABLES[name]
+    files = closure([Path(sys.modules[found(table.made).__module__].__file__)])
+    needed = {path.relative_to(ROOT) for path in files if path.parent != ROOT}
+    covered = {*table.code, *(() if table.parts else SIMULATE)}
+    for file in needed:
+        folders = {str(parent) for parent in file.parents} | {str(file)}
+        assert folders & covered or file == Path("study/__init__.py"), file
 
 
-@pytest.mark.parametrize("step", provenance.STEPS)
-def test_the_digest_of_a_step_covers_all_that_it_imports(step):
-    folders = [part for part in provenance.STEPS[step] if "." not in part]
-    files = closure(file for folder in folders for file in (ROOT / folder).rglob("*.py"))
-    needed = {path.relative_to(ROOT).parts[0] for path in files if path.parent != ROOT}
-    assert needed - ELSEWHERE <= {*folders}
+CHAPTERS = {table.chapter for table in TABLES.values() if table.made}
+CHAPTERS |= {figure.drawn.partition(".")[0] for figure in FIGURES.values()} - {"springblock"}
 
 
-def jobs():
-    """Each command of the rules with the steps whose digests its jobs have."""
-    found = {"plot": {"plot"}, "figure": {"plot"}}  # by `params.command`
-    found |= {"simulate": {"simulate"}, "prelude": {"simulate"}}  # by the names of folders
-    found["make"] = {"accuracy", "mechanism", "continuum"}  # by `PLANNED.step`
-    found["make"] |= {step for step in provenance.STEPS if step.endswith(".md")}
-    for file in sorted((ROOT.parents[1] / "workflow/rules").glob("*.smk")):
-        for rule in file.read_text().split("\n\n\n"):
-            command = re.search(r'"springblock (\w+)', rule)
-            if command:
-                steps = re.findall(r'code=code\("([\w.]+)"\)', rule)
-                found.setdefault(command[1], set()).update(steps)
-    found["aggregate"].add("accuracy")  # only to warn
-    del found["compile"]  # whose file is empty
-    return found
+@pytest.mark.parametrize("chapter", sorted(CHAPTERS))
+def test_chapters_know_the_library_and_not_each_other(chapter):
+    for file in (ROOT / "study" / chapter).rglob("*.py"):
+        for name in imports(file):
+            parts = name.split(".")
+            assert parts[1] != "study" or parts[2] == chapter, f"{file} imports {name}"
 
 
-def used_by(function, module):
-    """Modules of the package that a function of a module uses, itself or by another function."""
-    imported, functions, found, left = {}, {}, set(), [function]
-    for node in module.body:
-        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("springblock"):
-            imported |= {alias.asname or alias.name: node.module for alias in node.names}
-        if isinstance(node, ast.FunctionDef):
-            functions[node.name] = node
-    while left:
-        for node in ast.walk(functions.pop(left.pop())):
-            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("springblock."):
-                found.add(node.module)
-            if isinstance(node, ast.Name):
-                found |= {imported[node.id]} if node.id in imported else set()
-                left += [node.id] if node.id in functions and node.id not in left else []
-    return {name.split(".")[1] for name in found if name.count(".")}
-
-
-@pytest.mark.parametrize(("command", "steps"), jobs().items(), ids=jobs())
-def test_what_a_job_computes_is_in_the_digest_of_its_step(command, steps):
-    """Neither the command line nor files, which only arrange, nor the physics before."""
-    place, function = COMMANDS[command].split(":")
-    module = ast.parse((ROOT / "cli" / f"{place.split('.')[-1]}.py").read_bytes())
-    covered = {folder for step in steps for folder in provenance.STEPS[step]}
-    arranging = {"cli", "files", "provenance", "model", "io", "simulation"}
-    assert used_by(function, module) - arranging <= covered
+def test_the_library_knows_nothing_of_the_study():
+    for file in ROOT.rglob("*.py"):
+        if file.parent.name != "springblock" and "study" not in file.relative_to(ROOT).parts:
+            assert not any(name.startswith("springblock.study") for name in imports(file)), file
 
 
 def test_the_command_line_computes_nothing():
@@ -225,13 +190,13 @@ def test_the_command_line_computes_nothing():
 
 def test_a_job_takes_its_digests_from_the_plan_and_compares_its_sources(monkeypatch):
     """A comment changes the bytes of a source, and not the digest of its meaning."""
-    usual = provenance.made_by("simulate")
-    monkeypatch.setenv(provenance.PLAN, provenance.planned("0123"))
-    assert provenance.made_by("simulate") == usual
-    assert provenance.of_study("simulate") == usual | {"study": "0123"}
+    usual = provenance.made_by(SIMULATE)
+    monkeypatch.setenv(provenance.PLAN, provenance.planned("0123", [SIMULATE]))
+    assert provenance.made_by(SIMULATE) == usual
+    assert provenance.of_study(SIMULATE) == usual | {"study": "0123"}
     monkeypatch.setattr(provenance, "_sources", lambda step: "other bytes")
     with pytest.raises(ValueError, match="the code changed while the study ran"):
-        provenance.made_by("simulate")
+        provenance.made_by(SIMULATE)
 
 
 def test_the_order_of_keys_does_not_change_a_configuration():

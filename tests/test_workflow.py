@@ -6,27 +6,26 @@ import pyarrow.parquet as pq
 import pytest
 
 from springblock import Material
-from springblock.plotting import figures
 from springblock.solver.integrators import INTEGRATORS
+from springblock.study.results import FIGURES
 from studies import PAPER, ROOT, SCHEMA, TINY
 
 WHOLE = {"configuration": ("config/config.yaml",)}
 FULL = {"configuration": ("config/full.yaml",)}
 SENSITIVE = {"n_p2": [4], "n_s2": [2], "direction": ["x"], "seeds": 2}
 
-#: Those of the study without its optional groups of scenes and without its tables of errors.
-FIGURES = {
+#: Those of the study without its optional groups of scenes and without tables of chapters.
+DRAWN = {
     name
-    for name, figure in figures.FIGURES.items()
-    if figure.is_part_of(TINY["scenes"])
-    and figure.category not in ("Mechanism", "Accuracy", "Continuum")
+    for name, figure in FIGURES.items()
+    if {*figure.groups} <= TINY["scenes"].keys() and figure.draws != "tables"
 }
 
 
 def test_every_figure_is_drawn_in_both_formats(study):
     names = {file.name for file in (study / "results/figures").iterdir()}
-    assert names == {f"{name}.{suffix}" for name in FIGURES for suffix in ("pdf", "png")}
-    assert {f"figure_{number}" for number in range(1, 10)} <= FIGURES
+    assert names == {f"{name}.{suffix}" for name in DRAWN for suffix in ("pdf", "png")}
+    assert {f"figure_{number}" for number in range(1, 10)} <= DRAWN
 
 
 def test_files_say_what_their_columns_mean_and_which_code_made_them(study):

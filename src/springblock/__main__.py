@@ -1,5 +1,9 @@
-"""python -m springblock"""
+"""The program `springblock`: commands of the package, and of the study."""
 
-from springblock.cli import main
+from springblock import study
+from springblock.cli import COMMANDS, main
 
-main(prog_name="springblock")
+COMMANDS |= study.COMMANDS
+
+if __name__ == "__main__":
+    main(prog_name="springblock")

@@ -1,4 +1,4 @@
-"""springblock correlation and collect."""
+"""springblock correlation."""
 
 import shutil
 from pathlib import Path
@@ -14,20 +14,13 @@ def outputs(tmp_path):
     return ("--output-correlation", tmp_path / "c", "--output-length", tmp_path / "l")
 
 
-def test_sides_along_both_axes_are_correlated_and_collected(
-    springblock, pillars, outputs, tmp_path
-):
+def test_sides_along_both_axes_are_correlated(springblock, pillars, outputs, tmp_path):
     springblock("correlation", *pillars, *outputs)
     for name, schema in (("c", CORRELATION), ("l", CORRELATION_LENGTH)):
-        part, whole = tmp_path / name, tmp_path / f"{name}2"
-        springblock("make", "collect", part, part, "--output", whole)
-        table = pq.read_table(whole)
+        table = pq.read_table(tmp_path / name)
         assert table.schema.names == schema.names
-        assert table.num_rows == 2 * pq.read_metadata(part).num_rows
         assert set(table["side"].to_pylist()) == {"x", "y"}
         assert set(table["realisations"].to_pylist()) == {3}
-        made = pq.read_metadata(part).metadata
-        assert table.schema.metadata[b"code_version"] == made[b"code_version"]
 
 
 @pytest.mark.parametrize(

@@ -8,17 +8,18 @@ import pyarrow.parquet as pq
 import pytest
 
 from springblock.io.parquet import write
-from springblock.plotting.figures import FIGURES
+from springblock.study.results import FIGURES
 
 TABLES = [(name, each.tables) for name, each in FIGURES.items() if each.draws == "tables"]
-CLAIMED = ("correlation", "correlation-length", "work-precision")
 
 
 @pytest.mark.parametrize(
     "words",
     [
-        *(("figure", name, "{file}", "--output", "{here}/a.png") for name, _ in TABLES),
-        *(("claims", "{batch}", f"--{name}", "{file}", "--output", "{here}/a") for name in CLAIMED),
+        *(
+            ("figure", name, *["{file}"] * len(of), "--output", "{here}/a.png")
+            for name, of in TABLES
+        ),
         ("make", "accuracy", *["{file}"] * 4, "--output", "{here}/a.md"),
         ("make", "mechanism", *["{file}"] * 3, "--output", "{here}/a.md"),
         ("plot", "{file}", "--output", "{here}/a.png"),
@@ -70,8 +71,8 @@ OF_OTHER_TYPES = {
     ("prelude", "--n-blocks", 4): "run.parquet",
     ("aggregate", __file__): "all.npy",
     ("make", "stability"): "page.md",
-    ("make", "collect", __file__): "table.csv",
-    ("make", "mechanism", *[__file__] * 3): "page.parquet",
+    ("make", "mechanism_damped", __file__): "table.csv",
+    ("make", "applicability", *[__file__] * 3): "page.parquet",
     ("make", "sensitivities", __file__): "page.md",
     ("report", __file__): "report.pdf",
     ("figure", "figure_1"): "figure.jpg",

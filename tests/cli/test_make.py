@@ -4,26 +4,28 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from mechanism import chapter
 from precision import tables
-from springblock.accuracy import stability
-from springblock.accuracy.stability.cases import Case, Outcome
-from springblock.cli.options import schema_of
 from springblock.io.parquet import load, write
+from springblock.study.accuracy import stability
+from springblock.study.accuracy.stability.cases import Case, Outcome
+from springblock.study.results import TABLES, found
+from study.mechanism import chapter
 
 
 def as_table(name, rows):
     """Rows as the table of this name; columns that they lack hold nothing."""
-    return pa.Table.from_pylist(rows, pa.schema([(f.name, f.type) for f in schema_of(name)]))
+    return pa.Table.from_pylist(
+        rows, pa.schema([(f.name, f.type) for f in found(TABLES[name].columns)])
+    )
 
 
 def test_too_few_or_too_many_inputs_are_refused(springblock, tmp_path):
     (text := tmp_path / "text").write_text("text")
-    for name, files in (("stability", [text]), ("accuracy", [text]), ("collect", [])):
-        words = ("make", name, *files, "--output", tmp_path / "output")
-        assert f"Error: {name}: {len(files)} files given; give " in springblock(
-            *words, refused=True
-        )
+    for name, files in (("mechanism-6", [text]), ("accuracy", [text]), ("mechanism_damped", [])):
+        output = tmp_path / ("page.md" if name == "accuracy" else "table.parquet")
+        words = ("make", name, *files, "--output", output)
+        said = springblock(*words, refused=True)
+        assert f"Error: {len(files)} files given; give " in said
 
 
 @pytest.mark.parametrize("word", ["agrees", "drifts"])
@@ -37,7 +39,7 @@ def test_cases_are_written_if_each_comes_out_as_expected(springblock, word, tmp_
 
 
 def test_models_on_small_pillars_become_a_table(springblock, tmp_path, monkeypatch):
-    monkeypatch.setattr("springblock.mechanism.tables.SEEDS", 2)
+    monkeypatch.setattr("springblock.study.mechanism.tables.SEEDS", 2)
     springblock("make", "mechanism-4", "--output", tmp_path / "table")
     rows = pq.read_table(tmp_path / "table").to_pylist()
     assert [row["seed"] for row in rows] == [0, 1]

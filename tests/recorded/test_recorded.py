@@ -27,31 +27,31 @@ from matplotlib.ticker import FixedLocator
 from scipy.io import netcdf_file
 
 import precision
-from claims import paper
-from mechanism import chapter
-from plotting.test_every_figure import DRAWINGS, drawn
 from springblock import Pattern, Setup, Surface
-from springblock.accuracy import production, work_precision
-from springblock.accuracy.conventions import SAMPLE_INTERVAL, SCENES
-from springblock.accuracy.page import values
-from springblock.accuracy.solutions import Small
-from springblock.accuracy.stability import all_cases
-from springblock.claims import STATEMENTS
-from springblock.claims.table import rows as judged
-from springblock.cli import main
+from springblock.__main__ import main
 from springblock.cli.simulate import batch_table
 from springblock.io.identity import identity
 from springblock.io.parquet import write
 from springblock.io.records import Record
 from springblock.io.rows import Row
 from springblock.io.schemas import SUMMARY
-from springblock.mechanism import page as mechanism
-from springblock.mechanism.surfaces import TABLES
 from springblock.model.scene import Scene
-from springblock.pages import rendered
 from springblock.simulation.fields import Fields
 from springblock.study import configuration as study
+from springblock.study.accuracy import production, work_precision
+from springblock.study.accuracy.conventions import SAMPLE_INTERVAL, SCENES
+from springblock.study.accuracy.page import values
+from springblock.study.accuracy.solutions import Small
+from springblock.study.accuracy.stability import all_cases
+from springblock.study.claims import STATEMENTS
+from springblock.study.claims.table import rows as judged
+from springblock.study.mechanism import page as mechanism
+from springblock.study.mechanism.surfaces import PARTS
+from springblock.study.pages import rendered
 from studies import ROOT, TINY, Study
+from study.claims import paper
+from study.mechanism import chapter
+from study.test_every_figure import DRAWINGS, drawn
 
 RECORDED = Path(__file__).parent
 NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
@@ -103,7 +103,7 @@ def accuracy() -> str:
     realisations = [identity(scene) | {"energy_error": 1e-6 * e} for e, scene in errors.items()]
     columns = ("value", "scale", "deviation", "bias", "bias_error", "ci_low", "ci_high")
     whole = uneven(precision.production_rows(), *columns)
-    return rendered("accuracy.md", **values(single, stability, realisations, whole))
+    return rendered("accuracy/page.md", **values(single, stability, realisations, whole))
 
 
 def made_up(surface: Surface, step: float, sample_interval: float, order: float) -> Any:
@@ -152,9 +152,11 @@ def errors_measured() -> str:
             changed.setitem(production.PATTERNS, scene, pattern)
             changed.setitem(work_precision.ENSEMBLES, scene, (pattern, 5))
             changed.setitem(work_precision.SMALL, scene, small)
-        full_size = pd.DataFrame(production.production_rows("pillared", 4, 5e-9))
+        full_size = pd.DataFrame(production.measure("production-pillared", 4, 5e-9))
         small = pd.DataFrame(
-            chain.from_iterable(f("pillared") for f in work_precision.ROWS.values())
+            chain.from_iterable(
+                work_precision.measure(f"{kind}-pillared") for kind in ("reference", "paired")
+            )
         )
     timed = {"cpu_seconds", "prelude_seconds"}
     return "\n".join(written(table.drop(columns=timed & {*table})) for table in (full_size, small))
@@ -216,10 +218,9 @@ def plans() -> str:
                 lines.append(f"{scene.folder}: {scene}; seeds {first} to {last}")
         for group, some in study.for_figures(whole, groups).items():
             lines.append(f"# {name}, {group}, drawn: {len(some)} scenes")
-    for table, parts in TABLES.items():
-        for part, scenes in parts.items():
-            lines.append(f"# {table}, {part}: {len(scenes)} surfaces")
-            lines += [f"{scene.folder}: {scene}" for scene in scenes]
+    for part, scenes in PARTS.items():
+        lines.append(f"# {part}: {len(scenes)} surfaces")
+        lines += [f"{scene.folder}: {scene}" for scene in scenes]
     return "\n".join(lines) + "\n"
 
 
@@ -306,7 +307,7 @@ def printed(words: list[str]) -> Iterator[str]:
 def jobs() -> str:
     """The commands of all jobs of a tiny study."""
     with tempfile.TemporaryDirectory() as name:
-        everything = {"accuracy": True, "verification": True, "mechanism": "all"}
+        everything = {"parts": ["*"]}
         watched = {"flat": TINY["scenes"]["flat"] | {"snapshot_times": [1e-5]}}
         sensitive = {"sensitivities": {"n_p2": [4], "n_s2": [2], "direction": ["x"], "seeds": 2}}
         scenes = TINY["scenes"] | watched | sensitive

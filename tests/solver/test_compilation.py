@@ -57,7 +57,7 @@ def test_an_import_changes_no_setting_of_numba():
     script = """if True:
         import numba
         before = dict(vars(numba.config))
-        import springblock.solver, springblock.accuracy.plain_rk4
+        import springblock.solver, springblock.study.accuracy.plain_rk4
         assert dict(vars(numba.config)) == before
     """
     subprocess.run([sys.executable, "-c", script], check=True)

@@ -12,9 +12,9 @@ import pytest
 
 from specimens import flat, uniform
 from springblock import Setup, simulate
-from springblock.accuracy.stability.cases import UNDAMPED
-from springblock.accuracy.stability.one_block import slip
 from springblock.model.defaults import STEP
+from springblock.study.accuracy.stability.cases import UNDAMPED
+from springblock.study.accuracy.stability.one_block import slip
 
 OMEGA = UNDAMPED.omega_min
 LOAD = UNDAMPED.block_load

@@ -2,7 +2,7 @@
 
 import pytest
 
-from springblock.accuracy.stability import all_cases
+from springblock.study.accuracy.stability import all_cases
 
 CASES = list(all_cases())
 

@@ -8,8 +8,8 @@ import pytest
 from benchmarks.reference import System, solve
 from specimens import flat
 from springblock import Material, Setup, simulate
-from springblock.accuracy import plain_rk4
 from springblock.solver.integrators import INTEGRATORS
+from springblock.study.accuracy import plain_rk4
 from validation.test_surfaces import LAWS, oblong
 
 PAPER = Material()

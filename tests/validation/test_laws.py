@@ -16,7 +16,7 @@ import pytest
 
 from specimens import uniform
 from springblock import Material, Setup, simulate
-from springblock.accuracy.stability.one_block import slip
+from springblock.study.accuracy.stability.one_block import slip
 
 FAST = Material(gamma=0.0, slider_velocity=5e-3)
 MASS, K_S, LOAD, SPEED = FAST.mass, FAST.k_s, FAST.block_load, FAST.slider_velocity

@@ -16,10 +16,10 @@ from springblock import (
     draw_friction,
     simulate,
 )
-from springblock.accuracy.stability.cases import Pull
 from springblock.model.material import LAWS
 from springblock.model.scene import FIELDS
 from springblock.solver.integrators import INTEGRATORS, limit
+from springblock.study.accuracy.stability.cases import Pull
 from validation.test_surfaces import assert_moved, moved
 
 LOADING = 200  #: steps until a block without neighbours would detach

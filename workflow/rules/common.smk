@@ -10,9 +10,10 @@ from snakemake.exceptions import WorkflowError
 from snakemake.utils import update_config
 
 from springblock.cli import sentence
-from springblock.provenance import PLAN, digest, planned
+from springblock.provenance import ANALYSE, COMPILE, MASK, PLAN, SIMULATE, digest
 from springblock.study import configuration as study
 from springblock.study.plan import Plan
+from springblock.study.results import PAGES, PARTS, digest_of_report
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
     SCHEMA = yaml.load(file, study.LOADER)
@@ -41,14 +42,14 @@ RESULTS = PLANNED.results
 
 
 def code(step):
-    """The digest of the code of a step of `provenance.STEPS`: jobs run again when it changes."""
+    """The digest of the code of a step: jobs run again when it changes."""
     return lambda wildcards: digest(step)
 
 
 # Jobs find `springblock` beside this Python; on a cluster, which shares it, by the same path on every node.
 os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()]))
 if workflow.is_main_process:
-    os.environ[PLAN] = planned(PLANNED.digest)
+    os.environ[PLAN] = PLANNED.for_jobs()
     checked(PLANNED.remove_others, workflow.dryrun)
 
 

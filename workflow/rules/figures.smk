@@ -6,7 +6,7 @@ for figure in [*PLANNED.figures, *PLANNED.sweeps]:
         name:
             figure
         input:
-            checked(list, PLANNED.needed(figure)),
+            checked(PLANNED.needed, figure),
         output:
             pdf=f"{RESULTS}/figures/{figure}.pdf",
             png=report(f"{RESULTS}/figures/{figure}.png", category="Figures"),
@@ -15,7 +15,7 @@ for figure in [*PLANNED.figures, *PLANNED.sweeps]:
         resources:
             mem_mb=3000,
         params:
-            code=code("plot"),
+            code=PLANNED.code(figure),
             command=PLANNED.command(figure),
         shell:
             "springblock {params.command} {input:q} --output {output.pdf:q} --output {output.png:q} "
@@ -42,7 +42,7 @@ rule film:
     log:
         f"{RESULTS}/logs/films/{{surface}}.log",
     params:
-        code=code("plot"),
+        code=code((*ANALYSE, "plotting")),
     shell:
         "springblock animate {input:q} --output {output:q} > {log:q} 2>&1"
 
@@ -76,7 +76,7 @@ rule report:
     log:
         f"{RESULTS}/logs/report.log",
     params:
-        code=code("report"),
+        code=checked(digest_of_report),
         own="--own" if PLANNED.own else "",
         films=lambda wildcards, input: " ".join(
             f"--film {quote(film)} {quote(run)}"

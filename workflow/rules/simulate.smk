@@ -10,7 +10,7 @@ rule compile:
     log:
         f"{RESULTS}/logs/kernels/{{integrator}}.log",
     params:
-        code=code("compile"),
+        code=code(COMPILE),
         laws=" ".join(f"--law {quote(name)}" for name in PLANNED.laws),
         edges="--periodic" if PLANNED.periodic else "",
     shell:
@@ -34,7 +34,7 @@ rule mask:
     log:
         f"{RESULTS}/logs/surfaces/{{mask}}.log",
     params:
-        code=code("mask"),
+        code=code(MASK),
         cut=lambda wildcards: PLANNED.cuts[wildcards.mask].arguments,
     shell:
         "springblock mask {input:q} {params.cut} --output {output:q} > {log:q} 2>&1"
@@ -139,7 +139,7 @@ rule aggregate:
     log:
         f"{RESULTS}/logs/aggregate.log",
     params:
-        code=code("simulate"),
+        code=code(SIMULATE),
     shell:
         "springblock aggregate {input:q} --output {output:q} > {log:q} 2>&1"
 
@@ -153,7 +153,7 @@ rule means:
     log:
         f"{RESULTS}/logs/means.log",
     params:
-        code=code("analyse"),
+        code=code(ANALYSE),
     shell:
         "springblock table {input:q} --output {output:q} > {log:q} 2>&1"
 
@@ -170,7 +170,7 @@ if PLANNED.with_sides:
         log:
             f"{RESULTS}/logs/correlations.log",
         params:
-            code=code("analyse"),
+            code=code(ANALYSE),
         shell:
             "springblock correlation {input:q} --output-correlation {output.correlation:q} "
             "--output-length {output.length:q} > {log:q} 2>&1"

@@ -14,6 +14,7 @@ from textwrap import shorten
 
 import click
 
+#: Commands by name, to which `springblock.__main__` adds those of the study.
 COMMANDS = {
     "compile": "springblock.cli.simulate:compile_kernels",
     "mask": "springblock.cli.mask:mask",
@@ -25,10 +26,6 @@ COMMANDS = {
     "show": "springblock.cli.pictures:show",
     "aggregate": "springblock.cli.realisations:aggregate",
     "correlation": "springblock.cli.realisations:correlation",
-    "make": "springblock.cli.make:make",
-    "claims": "springblock.cli.claims:claims",
-    "figure": "springblock.cli.figure:figure",
-    "report": "springblock.cli.make:report",
     "info": "springblock.cli.tables:info",
     "table": "springblock.cli.tables:table",
     "compare": "springblock.cli.tables:compare",

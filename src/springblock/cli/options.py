@@ -5,7 +5,6 @@ from dataclasses import Field
 from functools import partial, wraps
 from itertools import chain
 from pathlib import Path
-from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
@@ -160,33 +159,3 @@ def print_columns(lines: Sequence[Sequence[str]]) -> None:
     for line in lines:
         padded = (cell.ljust(width) for cell, width in zip(line, widths, strict=True))
         click.echo("  ".join(padded).rstrip())
-
-
-#: Where the columns of the tables of a study are declared.
-_SCHEMAS = {
-    "realisations": "io.schemas:SUMMARY",
-    "correlation": "io.schemas:CORRELATION",
-    "correlation_length": "io.schemas:CORRELATION_LENGTH",
-    "claims": "claims.table:SCHEMA",
-    "work_precision": "accuracy.work_precision:SCHEMA",
-    "production": "accuracy.production:SCHEMA",
-    "stability": "accuracy.stability:SCHEMA",
-    "mechanism": "mechanism.tables:FRICTION",
-    "mechanism_damped": "mechanism.tables:FRICTION",
-    "sensitivities": "mechanism.sensitivities:SENSITIVITIES",
-    "continuum": "continuum.cases:CELLS",
-}
-
-
-def schema_of(name: str) -> Any:
-    """Return the columns of a table of a study."""
-    return resolve_name(f"springblock.{_SCHEMAS[name]}")
-
-
-def load_as(name: str, file: Path) -> Any:
-    """Read a table that must have the columns of its name, and be of the study of this job."""
-    from springblock.io.parquet import load, refuse_other_study
-
-    table = load(file, schema_of(name).names)
-    refuse_other_study(file, table)
-    return table

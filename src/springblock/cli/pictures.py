@@ -91,7 +91,7 @@ def plot(
         if left_out := len(rows) - len(sweep.drawn(found)):
             click.echo(f"Left out: {left_out} realisations of surfaces with a single {over}")
     for output in outputs:
-        save(picture, output, caption, files)
+        save(picture, output, caption)
 
 
 @click.command("animate")

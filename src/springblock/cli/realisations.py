@@ -6,14 +6,14 @@ from pathlib import Path
 
 import click
 
-from springblock.accuracy.conventions import suspects
 from springblock.analysis.correlations import correlations
+from springblock.analysis.suspects import suspects
 from springblock.cli.options import INPUT, Output
 from springblock.io.parquet import read, rows_to_table, write
 from springblock.io.records import read_records
 from springblock.io.rows import scene_of
 from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH, SUMMARY
-from springblock.provenance import of_study
+from springblock.provenance import ANALYSE, SIMULATE, of_study
 
 
 @click.command("aggregate")
@@ -28,7 +28,7 @@ def aggregate(batches: tuple[Path, ...], realisations: int | None, output: Path)
     for row in suspects(table.to_pylist()):
         which = f"{scene_of(row)}, seed = {row['seed']}"
         click.echo(f"warning: energy residual {row['energy_error']:.1e} at {which}")
-    write(table, output, of_study("simulate"))
+    write(table, output, of_study(SIMULATE))
 
 
 @click.command("correlation")
@@ -47,5 +47,5 @@ def correlation(batches: tuple[Path, ...], output_correlation: Path, output_leng
     folders = groupby(batches, attrgetter("parent"))
     found = [correlations(read_records(files)) for _, files in folders]
     curves, lengths = (list(chain.from_iterable(rows)) for rows in zip(*found, strict=True))
-    write(rows_to_table(curves, CORRELATION), output_correlation, of_study("analyse"))
-    write(rows_to_table(lengths, CORRELATION_LENGTH), output_length, of_study("analyse"))
+    write(rows_to_table(curves, CORRELATION), output_correlation, of_study(ANALYSE))
+    write(rows_to_table(lengths, CORRELATION_LENGTH), output_length, of_study(ANALYSE))

@@ -20,7 +20,7 @@ from springblock.io.schemas import BATCH, SNAPSHOTS
 from springblock.model.material import LAWS, Material
 from springblock.model.scene import Scene
 from springblock.model.surface import Surface
-from springblock.provenance import made_by, same_code
+from springblock.provenance import SIMULATE, made_by, same_code
 from springblock.simulation.fields import Fields, import_xarray
 from springblock.simulation.prelude import Prelude, compute_prelude
 from springblock.simulation.scenes import columns_of, prelude_of, realise, setup_of
@@ -41,7 +41,7 @@ def prelude(scene: Scene, output: Path) -> None:
 
     All seeds of the scene share it.
     """
-    version = made_by("simulate")["code_version"]
+    version = made_by(SIMULATE)["code_version"]
     replace(prelude_of(scene), code_version=version).save(output)
 
 
@@ -101,7 +101,7 @@ def simulate_batch(
 def _prelude(file: Path) -> Prelude:
     """Read a prelude, which must have been written by the same code."""
     begun = Prelude.read(file)
-    if not same_code(begun.code_version, made_by("simulate")["code_version"]):
+    if not same_code(begun.code_version, made_by(SIMULATE)["code_version"]):
         raise ValueError(f"{file} was made by other code, {begun.code_version}; {MENDING}")
     return begun
 

@@ -18,7 +18,7 @@ from springblock.model.scene import Scene
 from springblock.plotting import sweep as plot
 from springblock.plotting.lines import axes, lines
 from springblock.plotting.style import save
-from springblock.provenance import made_by
+from springblock.provenance import SIMULATE, made_by
 from springblock.simulation.scenes import columns_of, prelude_of, realise
 
 _DRAWN = ("static_friction", "t_max", "t_avg")  #: observables of the figures
@@ -50,7 +50,7 @@ def sweep(scenes: list[Scene], seeds: int, jobs: int, output: Path) -> None:
         rows = [about | columns_of(run, scene, seed) for seed, run in enumerate(runs)]
         tables.append(rows_to_table(rows, SUMMARY))
     table = pa.concat_tables(tables)
-    write(table, output / "realisations.parquet", made_by("simulate"))
+    write(table, output / "realisations.parquet", made_by(SIMULATE))
     for over in axes(scenes):
         found = lines(table.to_pylist(), over)
         picture = plot.draw(found, over, _DRAWN)

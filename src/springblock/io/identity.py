@@ -15,7 +15,7 @@ from springblock.files import MENDING
 from springblock.io.schemas import BATCH, SNAPSHOTS
 from springblock.model.law import LawFile
 from springblock.model.scene import Scene
-from springblock.provenance import digest_of_data, made_by
+from springblock.provenance import SIMULATE, digest_of_data, made_by
 
 
 def identity(scene: Scene) -> dict[str, Any]:
@@ -40,7 +40,7 @@ def _digest(scene: Scene, code: str) -> str:
 
 def metadata(scene: Scene) -> dict[str, str]:
     """Return the metadata of a batch: identity of its runs, code, and the digest of both."""
-    origin = made_by("simulate")
+    origin = made_by(SIMULATE)
     code = origin["code_version"].rpartition("+")[2]
     own = {"configuration": json.dumps(identity(scene), sort_keys=True)}
     return origin | own | {"digest": _digest(scene, code)}

@@ -7,3 +7,4 @@ INTEGRATOR = "leapfrog"
 STEP = 2e-8
 #: Time between two samples of the force, s.
 SAMPLE_INTERVAL = 2e-7
+PAPER_STEP = 1e-8  #: s

@@ -12,13 +12,13 @@ from springblock.analysis import statistics
 from springblock.analysis.statistics import Interval, LoadCurves
 from springblock.model.numbers import Array
 from springblock.plotting import style
-from springblock.plotting.figures import SINGLE
 from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, Look
 from springblock.simulation.run import Run, friction, percent
 
 Span = tuple[float, float]  #: of times in µs
 
 BAND = 0.25  #: opacity of the intervals
+SINGLE = 20  #: largest number of runs of an ensemble that are drawn one by one
 REST: Look = {"linestyle": (0, (1.0, 0.9))}  #: of a mean force once some runs have ended
 _BIN = 2e-6  #: s, width of the bins of detachments
 _PERCENTILES = (5.0, 95.0)  #: of an ensemble

@@ -18,7 +18,7 @@ from springblock.model.surface import Surface
 from springblock.plotting import maps, style
 from springblock.plotting.curves import draw_force, draw_run
 from springblock.plotting.style import COLUMN, DOUBLE, MICRO, MM, color_bar, journal
-from springblock.plotting.supplement import surfaces
+from springblock.plotting.surfaces import surfaces
 from springblock.simulation.fields import Fields
 from springblock.simulation.run import Run
 

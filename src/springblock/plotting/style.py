@@ -1,7 +1,7 @@
 """Style of all figures: sizes, colours, names and panels, and reproducible files.
 
 Figures are drawn without pyplot, independently of global state: the decorator `journal` applies the
-style whatever the user's own settings are. `plotting.drawing` applies it to figures of the study.
+style whatever the user's own settings are.
 """
 
 from collections.abc import Iterable
@@ -20,7 +20,6 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from springblock.files import whole_file
-from springblock.provenance import digest_of_files
 
 Look = dict[str, Any]  #: of a line, of markers or of text
 
@@ -174,6 +173,12 @@ def pillar_looks(sizes: Iterable[int]) -> dict[int, Look]:
     return looks | {n_p: {"color": color, "marker": marker} for n_p, color, marker in own}
 
 
+def span(values: Iterable[int]) -> str:
+    """Return the range of some numbers: 20, or 20 to 300."""
+    lowest, *_, highest = sorted([*values] * 2)
+    return f"{lowest}" if lowest == highest else f"{lowest} to {highest}"
+
+
 @journal
 def settle(picture: Figure) -> None:
     """Give panels their final places, with the text and arrows beside them on the page.
@@ -189,15 +194,13 @@ def settle(picture: Figure) -> None:
 
 
 @journal
-def save(picture: Figure, path: Path, caption: str = "", made_from: Iterable[Path] = ()) -> None:
+def save(picture: Figure, path: Path, caption: str = "") -> None:
     """Write a figure as PDF, PNG (600 dpi) or SVG, by the suffix of `path`, whole or not at all.
 
-    Its bytes depend on the picture, the caption and the names of the files that it is made from
-    alone; caption and a digest of the names are kept in the metadata.
+    Its bytes depend on the picture and the caption alone, which is kept in the metadata.
     """
-    keys = ("Subject", "Keywords") if path.suffix == ".pdf" else ("Description", "Source")
-    described = dict(zip(keys, (caption, digest_of_files(made_from)), strict=True))
-    metadata = _METADATA[path.suffix] | {key: text for key, text in described.items() if text}
+    key = "Subject" if path.suffix == ".pdf" else "Description"
+    metadata = _METADATA[path.suffix] | ({key: caption} if caption else {})
     settle(picture)
     with whole_file(path) as partial:
         picture.savefig(partial, format=path.suffix[1:], metadata=metadata)

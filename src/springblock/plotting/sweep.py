@@ -12,10 +12,24 @@ from matplotlib.figure import Figure
 from springblock.io.rows import Row
 from springblock.model.scene import FIELDS
 from springblock.plotting import curves, style
-from springblock.plotting.declaration import span
-from springblock.plotting.figures import SWEEP
 from springblock.plotting.lines import Lines, Places, in_math, units_of
-from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, PURPLE, VERMILION, Look
+from springblock.plotting.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    MICRO,
+    PURPLE,
+    VERMILION,
+    Look,
+    span,
+)
+
+_CAPTION = (
+    "Lines join ensembles that differ only in the quantity on the axis; with another n_p, n_s "
+    "changes in proportion. N = {n_blocks}, {runs} realisations of each ensemble. Symbols, "
+    "slightly offset: means; bars: 95 % t intervals over realisations."
+)
 
 #: What is drawn of each realisation: the label of its axis, and its value there.
 OBSERVABLES: dict[str, tuple[str, Callable[[Row], float]]] = {
@@ -36,7 +50,7 @@ _SIGN, _LETTER, _LINE = 12.0, 1.375, 3.6  #: mm, widths and height in the legend
 def caption(found: Lines) -> str:
     """Return the caption of lines."""
     runs = span(len(rows) for line in found.values() for rows in line.values())
-    return SWEEP.format(runs=runs, n_blocks=span(row["n_blocks"] for row in drawn(found)))
+    return _CAPTION.format(runs=runs, n_blocks=span(row["n_blocks"] for row in drawn(found)))
 
 
 def drawn(found: Lines) -> list[Row]:

@@ -1,31 +1,34 @@
 """What the configuration of a study asks for: scenes, files, jobs and figures."""
 
-from collections.abc import Iterable, Iterator, Mapping
+import fnmatch
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from itertools import chain, pairwise
 from pathlib import Path
 from typing import Any
 
-from springblock.accuracy.conventions import SCENES
-from springblock.continuum import PARTS as CELLS
 from springblock.io.identity import name_of
-from springblock.mechanism.surfaces import TABLES
 from springblock.model.blockmap import Cut
 from springblock.model.scene import Scene
-from springblock.plotting import figures
-from springblock.plotting.declaration import Declaration, file_name, having
 from springblock.plotting.lines import axes
-from springblock.provenance import digest, digest_of_data
+from springblock.provenance import ANALYSE, COMPILE, MASK, SIMULATE, digest, digest_of_data, planned
 from springblock.solver.integrators import INTEGRATORS
 from springblock.study import configuration as read
 from springblock.study import cost
+from springblock.study.results import (
+    FIGURES,
+    PAGES,
+    PARTS,
+    TABLES,
+    Figure,
+    Table,
+    file_name,
+    having,
+)
 from springblock.study.stale import remove_others
 
 #: Figures that show the surfaces which are filmed, by group.
 _FILMED = {"flat": "figure_3", "pillars": "figure_5", "grooves": "figure_8"}
-#: Groups whose realisations test the statements.
-_CLAIMED = ["flat", "pillars", "small_pillars", "grooves", "angles", "third_level", "loading"]
-_CLAIMED += ["scatter", "repetitions", "one_level", "square", "ungrooved"]
 
 
 class Plan:
@@ -37,7 +40,7 @@ class Plan:
         self.own = read.is_own(configuration)
         self.groups = read.ensembles(configuration)
         self.seeds = dict(chain.from_iterable(each.items() for each in self.groups.values()))
-        self.scenes = {name_of(scene, digest("simulate")): scene for scene in self.seeds}
+        self.scenes = {name_of(scene, digest(SIMULATE)): scene for scene in self.seeds}
         self.names = {scene: name for name, scene in self.scenes.items()}
 
     def members(self, groups: Iterable[str]) -> list[Scene]:
@@ -71,11 +74,6 @@ class Plan:
         return [each for each in found if each.sides and self.seeds[each] > 1 and not self.own]
 
     @property
-    def claimed(self) -> list[Scene]:
-        """Return the scenes that test the paper's statements."""
-        return self.members(_CLAIMED)
-
-    @property
     def with_fields(self) -> list[str]:
         """Return the names of scenes whose fields are stored."""
         return [name for name, scene in self.scenes.items() if scene.snapshot_times]
@@ -95,12 +93,14 @@ class Plan:
     def integrators(self) -> list[str]:
         """Return the integrators of all scenes; errors are measured with each."""
         used = {scene.integrator for scene in self.seeds}
-        return sorted(INTEGRATORS if self.configuration["accuracy"] else used)
+        is_each = any(table.chapter == "accuracy" for table in self.measured)
+        return sorted(INTEGRATORS if is_each else used)
 
     @property
     def periodic(self) -> bool:
-        """Whether surfaces have periodic edges, as the unit cells of the continuum have."""
-        return "continuum" in self.held or any(scene.is_periodic for scene in self.seeds)
+        """Whether surfaces have periodic edges, as the unit cells of some tables have."""
+        cells = any(table.is_periodic for table in self.measured)
+        return cells or any(scene.is_periodic for scene in self.seeds)
 
     def memory(self, job: Any) -> int:
         """Return MB to request for the wildcards of a job."""
@@ -110,43 +110,46 @@ class Plan:
         """Return minutes to request for the wildcards of a job."""
         return cost.minutes(self.scenes[job.scene], _runs(job))
 
-    @property
-    def measured(self) -> dict[str, list[str]]:
-        """Return the parts of each table that needs no realisations of the study."""
-        kinds = ("reference", "paired") if self.configuration["verification"] else ("reference",)
-        return {
-            "work_precision": [f"{kind}-{scene}" for kind in kinds for scene in SCENES],
-            "production": [f"production-{scene}" for scene in SCENES],
-            "stability": ["stability"],
-            **{table: [f"mechanism-{part}" for part in TABLES[table]] for table in TABLES},
-            "continuum": [f"continuum-{part}" for part in CELLS],
-        }
-
-    def step(self, name: str) -> str:
-        """Return the step whose code makes such a table or part of one."""
-        chapter = name.replace("_", "-").partition("-")[0]
-        return chapter if chapter in ("mechanism", "continuum") else "accuracy"
+    @cached_property
+    def measured(self) -> dict[Table, list[str]]:
+        """Return the parts of tables that the configuration names, by table."""
+        chosen: dict[Table, list[str]] = {}
+        for pattern in self.configuration["parts"]:
+            if not (named := fnmatch.filter(PARTS, pattern)):
+                raise ValueError(f"parts: no part is {pattern!r}; choose from {', '.join(PARTS)}")
+            for part in named:
+                chosen.setdefault(PARTS[part], []).append(part)
+        return {table: list(dict.fromkeys(parts)) for table, parts in chosen.items()}
 
     @property
-    def held(self) -> list[str]:
-        """Return those of these tables that belong to the study."""
-        errors = ["work_precision", "production", "stability"]
-        models = {"sizes": ["mechanism"], "all": [*TABLES, "continuum"]}
-        asked = self.configuration
-        return [*(errors if asked["accuracy"] else []), *models.get(asked["mechanism"], [])]
+    def computed(self) -> list[Table]:
+        """Return the tables that are computed from realisations of groups of the study."""
+        return [t for t in TABLES.values() if t.groups and self.members(t.groups) and not self.own]
+
+    @cached_property
+    def tables(self) -> dict[str, str]:
+        """Return the files of all tables by name."""
+        correlations = ["correlation", "correlation_length"] if self.with_sides else []
+        names = ["realisations", *correlations, *(t.name for t in (*self.measured, *self.computed))]
+        return {name: f"{self.results}/tables/{name}.parquet" for name in names}
+
+    @property
+    def of_chapters(self) -> dict[str, Table]:
+        """Return the tables that the chapters compute, by name."""
+        return {table.name: table for table in (*self.measured, *self.computed)}
+
+    def sources(self, table: Table) -> list[str]:
+        """Return the files from which a table is made: its parts, or batches and tables."""
+        if table in self.measured:
+            return [f"{self.results}/parts/{part}.parquet" for part in self.measured[table]]
+        batches = self.batches(self.members(table.groups))
+        return batches + [self.tables[name] for name in table.tables if name in self.tables]
 
     @property
     def pages(self) -> dict[str, list[str]]:
-        """Return the tables from which each page of the study is written."""
-        every = {
-            "claims": ["claims"],
-            "accuracy": ["work_precision", "stability", "realisations", "production"],
-            "continuum": ["continuum"],
-            "mechanism": [*TABLES, "sensitivities"],
-        }
-        known = {*self.held, "realisations"} | (set() if self.own else {"claims"})
-        known |= {"sensitivities"} if self.groups.get("sensitivities") else set()
-        return {page: tables for page, tables in every.items() if {*tables} <= known}
+        """Return the files of tables from which each page of the study is written."""
+        held = [page for page in PAGES.values() if {*page.tables} <= self.tables.keys()]
+        return {page.name: [self.tables[name] for name in page.tables] for page in held}
 
     def sampled(self, part: str) -> str:
         """Return seeds and finest step of ensembles that measure errors, as options."""
@@ -161,18 +164,14 @@ class Plan:
         return read.for_figures(self.configuration, self.groups)
 
     @cached_property
-    def figures(self) -> dict[str, Declaration]:
+    def figures(self) -> dict[str, Figure]:
         """Return the figures whose groups of scenes and tables the study has, by name."""
-        chapters = {
-            "Figures": not self.own,
-            "Accuracy": self.configuration["accuracy"],
-            "Mechanism": self.configuration["mechanism"],
-            "Continuum": self.configuration["mechanism"] == "all",
-        }
         return {
             name: figure
-            for name, figure in figures.FIGURES.items()
-            if figure.is_part_of(self.drawn) and chapters.get(figure.category, True)
+            for name, figure in FIGURES.items()
+            if all(self.drawn.get(group) for group in figure.groups)
+            and {*figure.tables} <= self.tables.keys()
+            and not (self.own and figure.draws in ("nothing", "pattern"))
         }
 
     @cached_property
@@ -201,11 +200,10 @@ class Plan:
         lengths: Mapping[str, Any] = self.configuration["figures"].get(figure, {})
         return lengths
 
-    def needed(self, figure: str) -> Iterator[str]:
-        """Yield the files of a figure; refuse lengths that no scene has."""
+    def needed(self, figure: str) -> list[str]:
+        """Return the files of a figure; refuse lengths that no scene has."""
         if figure in self.sweeps:
-            yield from self.batches(self.members(self.sweeps[figure]["groups"]))
-            return
+            return self.batches(self.members(self.sweeps[figure]["groups"]))
         lengths, declared = self._lengths(figure), self.figures[figure]
         shown = lengths.items() if declared.groups else ()
         scenes = chain.from_iterable(self.drawn[group] for group in declared.groups)
@@ -214,20 +212,28 @@ class Plan:
             raise ValueError(
                 f"figures.{figure}: no scene of {' or '.join(declared.groups)} has {wanted}"
             )
-        for table, scene, number in declared.needs(self.drawn, lengths):
-            if scene is None:
-                yield f"{self.results}/tables/{table}.parquet"
-            else:
-                yield from self.batches([scene])[:number]
+        drawn = declared.scenes(self.drawn, lengths)
+        files = chain.from_iterable(self.batches([scene])[: declared.batches] for scene in drawn)
+        return [*files, *(self.tables[name] for name in declared.tables)]
+
+    def for_jobs(self) -> str:
+        """Return the plan that jobs compare with their code, see `provenance.planned`."""
+        library = (COMPILE, MASK, SIMULATE, ANALYSE)
+        return planned(self.digest, [*library, *(t.code for t in TABLES.values() if t.made)])
 
     def remove_others(self, dryrun: bool) -> None:
         """Remove tables of another configuration, which are then made again."""
-        tables = ("realisations", "correlation", "correlation_length", "claims", "sensitivities")
-        files = [f"{self.results}/tables/{name}.parquet" for name in tables]
+        parted = {table.name for table in TABLES.values() if table.parts}
+        names = TABLES.keys() - parted
+        files = [f"{self.results}/tables/{name}.parquet" for name in sorted(names)]
         remove_others(files, self.digest, dryrun)
 
+    def code(self, figure: str) -> str:
+        """Return the digest of the code, and words, of a figure or sweep."""
+        return digest((*ANALYSE, "plotting")) if figure in self.sweeps else FIGURES[figure].digest
+
     def command(self, figure: str) -> str:
-        """Return the command that draws a figure, without its files."""
+        """Return the command that draws a figure or sweep, without its files."""
         if figure in self.sweeps:
             of = [f"--of {observable}" for observable in self.sweeps[figure].get("of", [])]
             return " ".join(["plot", "--over", self.sweeps[figure]["over"], *of])

@@ -1,0 +1,1 @@
+"""Commands of the study: tables, pages, figures and the report."""

@@ -1,0 +1,1 @@
+"""The continuum limit: a layer whose friction has a fracture energy."""

@@ -1,0 +1,1 @@
+"""What the full study finds, in short."""

@@ -1,0 +1,1 @@
+"""Slip precursors: what correlates the first detachments along an edge."""

@@ -1,0 +1,99 @@
+"""Biases of ensembles, on made-up pairs whose bias is known and on surfaces of few blocks."""
+
+import numpy as np
+import pytest
+
+from analysis.test_correlation import times
+from springblock import Pattern, Setup, Surface, simulate
+from springblock.io.parquet import rows_to_table
+from springblock.io.rows import select
+from springblock.model.defaults import STEP
+from springblock.model.scene import Scene
+from springblock.study.accuracy import production, work_precision
+from springblock.study.accuracy.conventions import DELAY, LENGTH, SCENES
+from springblock.study.accuracy.production import SCHEMA, STEPS, measure, of_length, of_mean
+
+SEEDS = 4
+
+
+@pytest.fixture(scope="module")
+def rows():
+    """Rows of pillars so small that each run takes milliseconds."""
+    with pytest.MonkeyPatch.context() as changed:
+        changed.setitem(production.PATTERNS, "pillared", Pattern.pillars(12, 9, 3))
+        return list(measure("production-pillared", SEEDS, min(STEPS)))
+
+
+def test_the_bias_of_a_mean_is_what_was_added(rng):
+    exact = rng.normal(7.0, 2.0, 50)
+    found = of_mean(exact + 0.25, exact)
+    assert found["bias"] == pytest.approx(0.25)
+    assert found["bias_error"] == pytest.approx(0.0, abs=1e-12)
+    assert found["deviation"] == pytest.approx(exact.std(ddof=1))
+    assert found["value"] == pytest.approx(exact.mean() + 0.25)
+
+
+def test_the_bias_of_a_length_is_told_where_sides_correlate_further():
+    """The same noise at both steps, which is remembered further at one of them."""
+    fine, coarse = (times(np.random.default_rng(3), 60, 9, 20, l_c) for l_c in (2.0, 3.0))
+    found = of_length({5e-9: fine, STEP: coarse, 4e-8: fine})
+    assert found[5e-9]["bias"] == found[4e-8]["bias"] == found[4e-8]["ci_high"] == 0.0
+    assert found[STEP]["ci_low"] > 0.0
+    assert found[STEP]["value"] - found[5e-9]["value"] == pytest.approx(found[STEP]["bias"])
+    unpaired = found[STEP]["deviation"] / 60**0.5
+    assert found[STEP]["bias_error"] < 0.7 * unpaired
+
+
+def test_rows_are_those_of_the_table_without_a_bias_at_the_finest_step(rows):
+    table = rows_to_table(rows, SCHEMA)
+    assert all(set(row) == set(SCHEMA.names) for row in rows)
+    assert table.num_rows == 5 * len(STEPS)
+    for row in rows:
+        if row["step"] == min(STEPS):
+            assert row["bias"] == row["ci_low"] == row["ci_high"] == row["bias_error"] == 0.0
+        assert row["cpu_seconds"] > 0.0
+
+
+def test_rows_hold_what_simulate_yields(rows):
+    pattern = Pattern.pillars(12, 9, 3)
+    setup = Setup(sample_interval=1.6e-7)
+    runs = [simulate(Surface.draw(pattern.contact, seed), setup) for seed in range(4)]
+    found = {row["quantity"]: row for row in rows if row["step"] == STEP}
+    assert found["t_max"]["value"] == pytest.approx(np.mean([run.t_max for run in runs]))
+    delays = [run.t_max - run.t_avg for run in runs]
+    assert found[DELAY]["value"] == pytest.approx(np.mean(delays))
+    assert found[DELAY]["scale"] == pytest.approx(found["t_max"]["scale"])
+    assert (found[LENGTH]["unit"], found[DELAY]["unit"]) == ("blocks", "s")
+
+
+def test_an_ensemble_has_no_bias_from_itself(monkeypatch):
+    """Nor the mean of its scatter, but for rounding."""
+    monkeypatch.setitem(work_precision.ENSEMBLES, "flat", (Pattern.flat(4), 3))
+    monkeypatch.setattr(work_precision, "PAPER_STEP", work_precision.FINE_STEP)
+    monkeypatch.setattr(work_precision, "PAIRED_SEEDS", {"leapfrog": 2})  # of these three
+    paired = [*work_precision.paired_rows("flat")]
+    scatter = select(paired, comparison="scatter", quantity="static_friction")[0]
+    of_itself = select(paired, comparison="paired", integrator="leapfrog")
+    assert [row["error"] for row in of_itself] == 3 * [0.0]
+    assert scatter["error"] == pytest.approx(0.0, abs=1e-15)
+    assert scatter["ci_low"] < 0.0 < scatter["ci_high"]
+
+
+def test_coarser_steps_are_compared_with_the_finest_that_is_asked_for(monkeypatch):
+    """With the same seeds, whose number is asked for, too."""
+    monkeypatch.setitem(production.PATTERNS, "flat", Pattern.flat(4))
+    rows = [*measure("production-flat", 3, 1e-8)]
+    assert {row["step"] for row in rows} == {8e-8, 4e-8, 2e-8, 1e-8}
+    assert all((row["bias"] == 0.0) == (row["step"] == 1e-8) for row in rows[:4])
+    assert {row["realisations"] for row in rows} == {3}
+    with pytest.raises(ValueError, match=r"^the finest step must be 1e-08 or 5e-09 s, not 2e-08$"):
+        next(measure("production-flat", 3, STEP))
+
+
+def test_scenes_are_those_of_the_study_and_steps_divide_the_sample_interval():
+    grooves = Scene(120, 58, 62, 8, 2)
+    for scene, wanted in zip(SCENES, (Scene(120), Scene(120, 20, 20), grooves), strict=True):
+        assert (production.PATTERNS[scene].contact == wanted.pattern.contact).all()
+    multiples = production.SAMPLE_INTERVAL / np.array(STEPS)
+    assert multiples == pytest.approx(np.round(multiples))
+    assert STEP in STEPS

@@ -1,0 +1,32 @@
+"""Values of the page on the mechanism."""
+
+import pytest
+
+from springblock.study.mechanism.page import values
+from study.mechanism import chapter
+
+
+@pytest.fixture(scope="module")
+def found():
+    """Values from tables made up."""
+    return values(chapter.rows(), chapter.damped(), chapter.settings())
+
+
+def test_changes_are_those_from_one_model_to_the_next_in_percent(found):
+    assert found["change"]["sticking"][6].mean == pytest.approx(100.0 * (0.8 / 0.65 - 1.0), 1e-4)
+    assert found["change"]["simulation"][20].mean == pytest.approx(-7.7, abs=0.1)
+    assert str(found["minimum"]["simulation"]) == "20 (or 6)"
+
+
+def test_damped_runs_are_compared_with_load_transfer_seed_by_seed(found):
+    """The drag is gamma m v/(P l²) = 1e7/s 1.2e-12 kg 5e-4 m/s / 5e-6 N."""
+    damped = found["damped"][1e7]
+    assert damped["drag"] == pytest.approx(1.2e-3)
+    assert damped["excess"][6] == pytest.approx([0.01] * 3)
+    assert damped["minimum"].place == 6
+
+
+def test_settings_have_free_edges_unless_these_are_varied(found):
+    assert [*found["settings"]] == [("", ""), ("gamma", "1e+06 1/s"), ("edges", "periodic")]
+    assert found["settings"]["gamma", "1e+06 1/s"]["size"].mean == pytest.approx(6.01)
+    assert found["peaks"]["periodic", 1e6]["prominence"] == pytest.approx([0.06, 0.03, 0.09])

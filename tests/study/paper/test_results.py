@@ -1,0 +1,364 @@
+"""Figures 2, 3, 5, 6, 7 and 9 show the runs and the tables that they are given."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pandas as pd
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import to_rgb
+
+from springblock import Pattern
+from springblock.analysis.statistics import (
+    mean_interval,
+    pillar_ring,
+    prominence,
+)
+from springblock.io.identity import identity
+from springblock.io.records import Record
+from springblock.model.scene import Scene
+from springblock.plotting.maps import painted, scale
+from springblock.plotting.style import BEFORE_AFTER, pillar_looks
+from springblock.simulation.run import friction
+from springblock.study.results import FIGURES
+
+SIZE = 6
+PILLARS = Pattern.pillars(24, SIZE, SIZE)
+ASKEW = Scene(24, SIZE, SIZE, direction="30")
+NORMAL_FORCE = 1.3e-3
+
+
+def record(seed: int, peaks: tuple[float, ...] = (110e-6,), samples: int = 700) -> Record:
+    """A force with hills at `peaks`; blocks let go from the edge of their pillar to its middle."""
+    rng = np.random.default_rng(seed)
+    time = 2e-7 * np.arange(samples - 3 * seed)
+    force = 1e-4 * np.minimum(time / peaks[0], 1.0)
+    force += sum(1e-3 * np.exp(-(((time - peak) / 8e-6) ** 2)) for peak in peaks)
+    from_edge = np.minimum(np.arange(SIZE), np.arange(SIZE)[::-1])
+    place = 100e-6 + 5e-6 * np.add.outer(2.0 * from_edge, from_edge)
+    t_det = np.full((24, 24), np.nan)
+    for y, x in PILLARS.origins:
+        t_det[y : y + SIZE, x : x + SIZE] = place
+    t_det += rng.normal(0.0, 1e-6, t_det.shape)
+    detachments = np.histogram(t_det[PILLARS.contact], np.append(-1.0, time))[0].astype(np.int32)
+    return Record(
+        scene=Scene(24, SIZE, SIZE),
+        seed=seed,
+        time=time,
+        force=force * (1.0 + 0.01 * rng.standard_normal()),
+        normal_force=NORMAL_FORCE,
+        detachments=detachments,
+        switches=detachments + (time > 120e-6),
+        t_det=t_det,
+        contact=np.isfinite(t_det),
+    )
+
+
+@cache
+def ensemble(*peaks: float, runs: int = 4) -> list[Record]:
+    return [record(seed, peaks) for seed in range(runs)]
+
+
+def along_and_across(runs: int = 4):
+    """Two configurations of grooves, one of which was slid along them alone."""
+    return {
+        (8, 2, 0, 0, "", "x"): ensemble(80e-6, 110e-6, runs=runs),
+        (8, 2, 0, 0, "", "y"): ensemble(100e-6, runs=runs),
+        (4, 2, 0, 0, "", "x"): ensemble(90e-6, runs=runs),
+    }
+
+
+def sizes(runs: int = 4):
+    peaks = {0: 60e-6, 2: 80e-6, 6: 100e-6, 20: 120e-6}
+    return {n_p: ensemble(peak, runs=runs) for n_p, peak in peaks.items()}
+
+
+SIZES = [6, 20, 60]
+LENGTH = {"x": 3.0, "y": 0.5}
+
+
+def correlation(n_p: int = 60) -> pd.DataFrame:
+    """Exponential curves whose intervals are 0.1 wide."""
+    r = np.arange(n_p // 2 - n_p // 10 + 1)
+    sides = []
+    for side, length in LENGTH.items():
+        c = np.exp(-r / length)
+        columns = {"r": r, "correlation": c, "ci_low": c - 0.05, "ci_high": c + 0.05}
+        sides.append(pd.DataFrame(columns).assign(n_p=n_p, side=side))
+    return on_pillars(pd.concat(sides))
+
+
+def on_pillars(table: pd.DataFrame) -> pd.DataFrame:
+    """Add the scenes of a table of correlations: pillars and gaps of n_p blocks."""
+    scenes = [identity(Scene(120, n_p, n_p)) | {"level": 1} for n_p in table["n_p"]]
+    return table.assign(**pd.DataFrame(scenes, table.index).drop(columns=["n_p", "snapshot_times"]))
+
+
+def lengths() -> pd.DataFrame:
+    """Lengths that grow with n_p; the smallest pillars have no fit with a free amplitude."""
+    rows = []
+    for n_p in SIZES:
+        for side, length in LENGTH.items():
+            l_c = length * (1.0 + n_p / 600.0)
+            tail = np.nan if n_p == 6 else l_c + 1.0
+            row = {"l_c": l_c, "ci_low": l_c - 0.2, "ci_high": l_c + 0.3}
+            row |= {"r_last": min(n_p // 3, 5), "amplitude": 0.8}
+            row |= {"tail": tail, "tail_low": tail - 0.5, "tail_high": tail + 0.5}
+            rows.append({"n_p": n_p, "side": side, **row})
+    return on_pillars(pd.DataFrame(rows))
+
+
+DRAWINGS = {
+    "figure_2": lambda: FIGURES["figure_2"].function()(ensemble(110e-6)),
+    "figure_3": lambda: FIGURES["figure_3"].function()(ensemble(110e-6)),
+    "figure_5": lambda: FIGURES["figure_5"].function()(ensemble(110e-6)),
+    "figure_6": lambda: FIGURES["figure_6"].function()(sizes()),
+    "figure_7": lambda: FIGURES["figure_7"].function()(correlation(), lengths(), 60),
+    "figure_9": lambda: FIGURES["figure_9"].function()(along_and_across()),
+    "figure_5 of one run": lambda: FIGURES["figure_5"].function()(
+        [replace(record(0), scene=ASKEW)]
+    ),
+    "figure_6 of one run": lambda: FIGURES["figure_6"].function()(sizes(runs=1)),
+    "figure_7 of the smallest pillars": lambda: FIGURES["figure_7"].function()(
+        correlation(6), lengths()[:2], 6
+    ),
+    "figure_9 of one run": lambda: FIGURES["figure_9"].function()(along_and_across(runs=1)),
+}
+drawn = cache(lambda name: DRAWINGS[name]())  # for tests that only look at it
+
+
+def test_figure_2_shows_the_run_in_front_of_the_others():
+    runs = ensemble(110e-6, runs=3)
+    force, blocks = (FIGURES["figure_2"].function()(runs).axes[i] for i in (0, 2))
+    lines = {line.get_label(): line for line in force.get_lines()}
+    np.testing.assert_allclose(lines["one run"].get_ydata(), runs[0].force / NORMAL_FORCE)
+    others = (runs[1].force[:694] + runs[2].force) / (2.0 * NORMAL_FORCE)
+    np.testing.assert_allclose(lines["their mean"].get_ydata(), others)
+    all_switches, first = blocks.patches[:2]
+    per_block = 100.0 / PILLARS.contact.sum()
+    for steps, counts in ((all_switches, runs[0].switches), (first, runs[0].detachments)):
+        np.testing.assert_allclose(steps.get_data().values, per_block * counts[1:])
+    assert blocks.get_ylim()[0] < per_block  # one block is visible
+
+
+def test_figure_2_marks_both_times():
+    run = record(0)
+    for ax in FIGURES["figure_2"].function()([run]).axes:
+        marks = [line for line in ax.get_lines() if len(line.get_xdata()) == 2]
+        upright = {line.get_linestyle(): line.get_xdata()[0] for line in marks}
+        assert upright == {":": pytest.approx(110.0), "-": pytest.approx(1e6 * run.t_avg)}
+
+
+def test_figure_2_refuses_runs_sampled_differently():
+    odd = replace(record(1), time=2.0 * record(1).time)
+    with pytest.raises(ValueError, match="sample interval"):
+        FIGURES["figure_2"].function()([record(0), record(2), odd])
+
+
+def test_figure_3_maps_t_det_over_t_max():
+    run = record(0)
+    ax = FIGURES["figure_3"].function()([run]).axes[0]
+    np.testing.assert_array_equal(ax.images[0].get_array(), painted(run))
+    times = (run.t_det / run.t_max)[run.contact]
+    norm = scale(times)
+    assert (norm.vmin, norm.vmax) == pytest.approx((times.min(), times.max()))
+    assert norm(1.0) == pytest.approx(0.5)
+    for place in (0.2, 0.499):  # up to t_max all are blue, from there on red
+        blue, red = BEFORE_AFTER(place), BEFORE_AFTER(1.0 - place)
+        assert blue[2] > blue[0]
+        assert red[0] > red[2]
+
+
+def lines(ax):
+    """Data of the lines of a panel, (n, 2), by label."""
+    return {line.get_label(): line.get_xydata() for line in ax.get_lines()}
+
+
+def test_figure_5_maps_the_mean_and_tells_sides_apart():
+    pillar, rings = drawn("figure_5").axes
+    shown = np.ma.filled(pillar.images[0].get_array(), np.nan)
+    starts = PILLARS.origins
+    cut = [r.t_det[y : y + SIZE, x : x + SIZE] for r in ensemble(110e-6) for y, x in starts]
+    np.testing.assert_allclose(shown, np.mean(cut, axis=0) / 110e-6)
+    parts = {label: xy for label, xy in lines(rings).items() if not label.startswith("_")}
+    corners, along_y, along_x = parts.values()
+    names = ["corners", "sides along $y$", "sides along $x$"]
+    assert [label.split(" (")[0] for label in parts] == names
+    assert [len(part) for part in (corners, along_y, along_x)] == [3, 2, 2]  # rings
+    assert corners[0, 1] == pytest.approx(shown[[0, 0, -1, -1], [0, -1, 0, -1]].mean())
+    assert along_y[0, 1] == pytest.approx(shown[1:-1, [0, -1]].mean())
+    assert along_x[0, 1] == pytest.approx(shown[[0, -1], 1:-1].mean())
+    title = rings.get_legend().get_title().get_text()
+    of_runs = np.array(cut).reshape(4, 4, SIZE, SIZE).mean(axis=1) / 110e-6
+    rings_of = [pillar_ring(SIZE, depth).values() for depth in range(3)]
+    samples = [of_runs[:, mask].mean(axis=1) for ring in rings_of for mask in ring if mask.any()]
+    widest = max(mean_interval(each).high - mean_interval(each).mean for each in samples)
+    assert title == f"95 % intervals: up to ±{widest:.2g}"
+
+
+def test_figure_6_shows_every_size_and_marks_both_times():
+    force, highest, _, lag = drawn("figure_6").axes
+    curves = lines(force)
+    mean = np.mean([r.force[:691] / NORMAL_FORCE for r in ensemble(100e-6)], axis=0)
+    np.testing.assert_allclose(curves["$n_p$ = 6"][:, 1], mean)
+    dots = [line.get_xydata()[0, 0] for line in force.get_lines() if len(line.get_xydata()) == 1]
+    for n_p, runs in sizes().items():
+        assert ("flat" if n_p == 0 else f"$n_p$ = {n_p}") in curves
+        assert pytest.approx(1e6 * runs[0].t_max) in dots
+        assert pytest.approx(1e6 * np.mean([r.t_avg for r in runs])) in dots
+    assert [bar.lines[0].get_xdata()[0] for bar in highest.containers] == [2.0, 6.0, 20.0]
+    dots = [line for line in lag.get_lines() if line.get_marker() == "."]
+    assert [line.get_xdata()[0] for line in dots] == [2.0, 6.0, 20.0]
+    each = [100.0 - 1e6 * run.t_avg for run in ensemble(100e-6)]
+    assert dots[1].get_ydata() == pytest.approx(each)
+    assert lag.containers[1].lines[0].get_ydata() == pytest.approx(np.mean(each))
+
+
+def test_figure_6_shows_other_sizes_than_the_papers_at_the_right_only():
+    picture = FIGURES["figure_6"].function()({n_p: ensemble(100e-6) for n_p in (0, 4, 6, 8)})
+    force, highest = picture.axes[:2]
+    assert lines(force).keys() & {f"$n_p$ = {n_p}" for n_p in (4, 6, 8)} == {"$n_p$ = 6"}
+    assert [bar.lines[0].get_xdata()[0] for bar in highest.containers] == [4.0, 6.0, 8.0]
+
+
+def test_the_band_of_figure_6_is_the_spread_of_the_realisations():
+    force = drawn("figure_6").axes[0]
+    band = force.collections[2].get_paths()[0].vertices  # of n_p = 6
+    at = band[np.isclose(band[:, 0], 100.0)][:, 1]
+    forces = [run.force[500] / NORMAL_FORCE for run in ensemble(100e-6)]
+    assert (at.min(), at.max()) == pytest.approx(tuple(np.percentile(forces, (5.0, 95.0))))
+
+
+def marked(ax) -> list[float]:
+    """Times of the triangles of a panel, µs."""
+    return [text.xy[0] for text in ax.texts if text.get_text() == "▼"]
+
+
+def test_figure_9_marks_the_load_peaks_of_the_data():
+    """A row for each configuration, that with two peaks first."""
+    wide, _, narrow, _ = drawn("figure_9").axes
+    names = ["along grooves", "across grooves", "load peak of the mean", "fewer runs"]
+    assert [text.get_text() for text in drawn("figure_9").legends[0].get_texts()] == names
+    highest = max(line.get_ydata().max() for line in narrow.get_lines() if len(line.get_xdata()))
+    assert wide.get_ylim()[0] == narrow.get_ylim()[0] == pytest.approx(0.7 * highest, rel=0.02)
+    assert marked(wide) == pytest.approx([80.0, 110.0, 100.0], abs=0.5)
+    assert marked(narrow) == pytest.approx([90.0], abs=0.5)
+    words = wide.get_title("right")
+    along = [100.0 * prominence(friction(run)) for run in ensemble(80e-6, 110e-6)]
+    assert "8/2" in words
+    assert f"along {np.mean(along):.1f} % [" in words
+    assert "across 0.0 % [0.0, 0.0]" in words
+
+
+def test_figure_9_shows_every_single_run():
+    wide = drawn("figure_9").axes[0]
+    thin = [line.get_xydata() for line in wide.get_lines() if line.get_linewidth() == 0.3]
+    for runs, shown in ((ensemble(80e-6, 110e-6), thin[:4]), (ensemble(100e-6), thin[4:])):
+        for run, line in zip(runs, shown, strict=True):
+            ended = np.isnan(line[:, 1])
+            assert len(run.time) == np.count_nonzero(~ended)
+            np.testing.assert_allclose(line[~ended, 1], run.force / NORMAL_FORCE)
+
+
+def test_curves_go_on_past_the_shortest_run():
+    """Solid while all runs go on, dotted and over the rest of them as long as half are left."""
+    runs = ensemble(100e-6)  # they end after 700, 697, 694 and 691 samples
+    force, _, detached, _ = drawn("figure_6").axes
+    solid = lines(force)["$n_p$ = 6"]
+    dashed = [line.get_xydata() for line in force.get_lines() if line.get_linestyle() == "--"]
+    (dotted,) = (xy for xy in dashed if len(xy) > 1 and np.array_equal(xy[0], solid[-1]))
+    assert len(solid) == 691
+    shown = dotted[np.isfinite(dotted[:, 1])]
+    assert len(solid) + len(shown) - 1 == 697
+    rest = np.mean([run.force[691:697] / NORMAL_FORCE for run in runs[:2]], axis=0)
+    np.testing.assert_allclose(shown[-3:, 1], rest[-3:])
+    for steps, n_p in zip(detached.patches, sizes(), strict=True):
+        shares = steps.get_data()
+        assert shares.edges[-1] == pytest.approx(138.0)  # whole bins of the longest run
+        blocks = PILLARS.contact.sum()
+        late = np.mean([np.sum(run.t_det > 138e-6) / blocks for run in sizes()[n_p]])
+        assert shares.values.sum() == pytest.approx(100.0 * (1.0 - late), abs=0.01)
+
+
+def test_pillars_look_the_same_wherever_they_are_drawn():
+    """Neighbouring sizes differ in their marker, and in lightness for those who see no colour."""
+    looks = pillar_looks((0, *range(2, 11), 20, 30, 60)).values()
+    assert len({look["marker"] for look in looks}) == len(looks)
+    grey = [np.dot(to_rgb(look["color"]), (0.299, 0.587, 0.114)) for look in looks]
+    assert (np.diff(grey) > 0.0).all()
+    assert grey[-1] < 0.6  # readable on white
+
+
+def points(ax: Axes) -> list[np.ndarray]:
+    """Data of what is drawn with markers alone, (n, 2) each."""
+    return [
+        line.get_xydata()
+        for line in ax.get_lines()
+        if line.get_linestyle() == "None" and len(line.get_xydata()) and line.get_marker() in "Ds"
+    ]
+
+
+def test_curves_and_bands_are_those_of_the_table():
+    """Behind r = 0, where c is 1; the logarithmic panel ends before an interval holds zero."""
+    for ax, limit in zip(drawn("figure_7").axes, (-1.0, 0.0), strict=False):
+        bands = [part for part in ax.collections if isinstance(part, PolyCollection)]
+        for (_, side), shown, band in zip(
+            correlation().groupby("side"), points(ax), bands, strict=True
+        ):
+            part = side[(side["r"] > 0) & (side["ci_low"] > limit)]
+            np.testing.assert_allclose(shown, part[["r", "correlation"]])
+            limits = band.get_datalim(ax.transData)
+            assert (limits.x0, limits.x1) == (1.0, part["r"].max())
+            ends = part["ci_low"].min(), part["ci_high"].max()
+            assert (limits.y0, limits.y1) == pytest.approx(ends)
+
+
+def test_the_fit_is_solid_where_it_was_fitted_and_dotted_beyond():
+    curves = drawn("figure_7").axes[1]
+    assert curves.get_yscale() == "log"
+    for pattern, span in (("-", (0.0, 5.0)), (":", (5.0, 24.0))):
+        drawn_so = [line for line in curves.get_lines() if line.get_linestyle() == pattern]
+        lines = [line.get_xydata() for line in drawn_so if len(line.get_xydata()) > 25]
+        assert len(lines) == 2
+        for line, length in zip(lines, LENGTH.values(), strict=True):
+            assert (line[0, 0], line[-1, 0]) == span
+            np.testing.assert_allclose(line[:, 1], np.exp(-line[:, 0] / (1.1 * length)))
+
+
+def test_the_fit_with_a_free_amplitude_is_dashed_over_its_range():
+    curves = drawn("figure_7").axes[1]
+    dashed = [line.get_xydata() for line in curves.get_lines() if line.get_linestyle() == "--"]
+    shown = [line for line in dashed if len(line) > 25]
+    assert [(line[0, 0], line[-1, 0]) for line in shown] == [(1.0, 5.0)] * 2
+    tail = 1.1 * LENGTH["x"] + 1.0
+    np.testing.assert_allclose(shown[0][:, 1], 0.8 * np.exp(-shown[0][:, 0] / tail))
+    smallest = drawn("figure_7 of the smallest pillars").axes[1]
+    lines = [line.get_xydata() for line in smallest.get_lines() if line.get_linestyle() == "--"]
+    assert not any(len(line) > 25 for line in lines)  # two distances fit any two numbers
+    names = [text.get_text() for text in drawn("figure_7").legends[0].get_texts()]
+    assert names[2:4] == [r"$\exp(-r/l_c)$", r"$A\,\exp(-r/l_d)$"]
+
+
+def test_the_last_panel_shows_the_lengths_along_x_with_their_intervals():
+    sizes = drawn("figure_7").axes[2]
+    fitted, tail = sizes.containers
+    expected = lengths().query("side == 'x'")
+    np.testing.assert_allclose(fitted.lines[0].get_ydata(orig=False), expected["l_c"])
+    np.testing.assert_allclose(tail.lines[0].get_ydata(orig=False), expected["tail"])
+    (bars,) = fitted.lines[2]
+    np.testing.assert_allclose(
+        [segment[:, 1] for segment in bars.get_segments()], expected[["ci_low", "ci_high"]]
+    )
+    assert sizes.get_xscale() == "log"
+
+
+def test_figure_7_shows_pillars_with_equal_gaps_and_the_study_s_constants():
+    """Neither other gaps, nor another material; without the size asked for it is refused."""
+    others = [lengths().assign(n_s=5), lengths().assign(gamma=1.0)]
+    picture = FIGURES["figure_7"].function()(correlation(), pd.concat([lengths(), *others]), 60)
+    shown, usual = (each.axes[2].lines[0].get_xydata() for each in (picture, drawn("figure_7")))
+    np.testing.assert_array_equal(shown, usual)
+    with pytest.raises(ValueError, match="no correlation length for n_p = 60"):
+        FIGURES["figure_7"].function()(correlation(), lengths()[:4], 60)

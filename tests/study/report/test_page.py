@@ -1,0 +1,146 @@
+"""What the report says, and that it takes nothing for its own that was only given to it."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pyarrow as pa
+import pytest
+
+from springblock.__main__ import main
+from springblock.io.parquet import rows_to_table, write
+from springblock.io.records import read_records
+from springblock.study.claims import STATEMENTS
+from springblock.study.claims.rule import Evidence
+from springblock.study.claims.table import SCHEMA, rows
+from springblock.study.report import markup, media
+from springblock.study.report.markup import typeset
+from springblock.study.report.page import report_page as page
+from springblock.study.results import FIGURES
+
+
+def test_each_statement_belongs_to_a_figure():
+    assert {f"figure_{each.figure}" for each in STATEMENTS} <= FIGURES.keys()
+
+
+@pytest.fixture
+def untested(tmp_path):
+    """The table of statements of a study without data."""
+    write(rows_to_table(rows(STATEMENTS, Evidence()), SCHEMA), tmp_path / "claims.parquet", {})
+    return tmp_path / "claims.parquet"
+
+
+def test_a_figure_has_the_verdicts_of_the_study(picture, untested):
+    first = STATEMENTS[0]
+    figure = picture(f"figure_{first.figure}.png", "a")
+    text = page([figure, untested], {})
+    _, _, after = text.partition(str(typeset(first.title)))
+    assert "0 of 0 cases hold" in after
+    assert "verdicts of this study" not in page([figure], {})
+
+
+def test_the_report_has_words_criterion_reason_and_remark_of_each_statement(picture, untested):
+    text = page([untested, *(picture(f"figure_{i}.png", "a") for i in range(1, 10))], {})
+    for each in STATEMENTS:
+        part = text.partition(f'id="statement-{each.id}"')[2].partition("</details>")[0]
+        for said in (each.words, each.criterion, each.remark, each.changed):
+            assert str(typeset(said)) in part
+
+
+@pytest.mark.parametrize(
+    ("text", "html"),
+    [
+        ("[to](#the-end)", '<a href="#a-the-end">to</a>'),
+        ("[out](https://x.org)", '<a href="https://x.org">out</a>'),
+        ("n_p, `n_p`", "<var>n<sub>p</sub></var>, <code>n_p</code>"),
+        ("## The end", '<h2 id="a-the-end">'),
+        ("| l_c |\n|---|", "<th><var>l<sub>c</sub></var></th>"),
+        ('<a id="l-c"></a>l_c', '<span id="a-l-c"></span>'),
+        (r"If $\mu_s F_n > w$.", "<var>μ<sub>s</sub></var> <var>F<sub>n</sub></var> &gt; w."),
+    ],
+)
+def test_links_headings_formulas_and_symbols_of_a_page_are_set(text, html):
+    """Links within it, headings and anchors bear its name; symbols are set, but not in code."""
+    page = markup.rendered("a", f"# T\n\n{text}\n")
+    assert page.title == "T"
+    assert html in page.body
+
+
+def test_pages_of_the_report_link_to_each_other():
+    text = "[a](docs/model.md) [b](claims.md#the-rule) `docs/claims.md` `docs/model.md`\n"
+    body = markup.rendered("a", text, pages={"claims"}).body
+    assert '<a href="#claims-the-rule">b</a> <a href="#claims">claims</a>' in body
+    assert body.count("href") == 2  # pages that the report lacks lead nowhere
+
+
+def test_symbols_are_set_and_nothing_but_symbols():
+    assert typeset("t_max < l_c") == "<var>t<sub>max</sub></var> &lt; <var>l<sub>c</sub></var>"
+    assert typeset("n_p2/n_s2") == "<var>n<sub>p2</sub></var>/<var>n<sub>s2</sub></var>"
+    assert typeset("c_x of `rk4`") == "<var>c<sub>x</sub></var> of <code>rk4</code>"
+    assert typeset("2μ_d/l_z²") == "2<var>μ<sub>d</sub></var>/<var>l<sub>z</sub></var>²"
+    for name in ("level-1/n_p-2", "supplement_n_p", "n_p_x", "t_maximum", "static_friction"):
+        assert typeset(name) == name
+
+
+def test_a_table_leaves_out_what_is_the_same_in_all_rows():
+    table = pa.table({"a": [1.0, 2.0], "b": [5.0, 5.0], "c": [np.nan, 0.123456789], "d": ["", ""]})
+    shown = markup.shown("t", table)
+    assert [(column["name"], value) for column, value in shown["same"]] == [("b", "5")]
+    assert [column["name"] for column in shown["columns"]] == ["a", "c"]
+    assert shown["rows"] == [("1", ""), ("2", "0.123457")]
+
+
+def test_a_film_says_when_blocks_detach(tmp_path):
+    file = tmp_path / "run.parquet"
+    options = ["--n-blocks", "12", "--n-p", "3", "--n-s", "3", "--first-seed", "4"]
+    main(["simulate", *options, "--output", str(file)], standalone_mode=False)
+    (run,) = read_records([file])
+    said = media.told(run)
+    assert said["scene"] == str(run.scene)
+    assert (said["seed"], said["blocks"]) == (4, 36)
+    assert said["detached"]["t_max"] == 1e6 * run.t_max
+    early = np.where(np.arange(144).reshape(12, 12) % 7 == 0, 0.0, np.nan)  # a few, and no others
+    few = np.where(run.contact, early, np.nan)
+    share = 100.0 * np.isfinite(few).sum() / 36
+    assert media.told(replace(run, t_det=few))["detached"]["before"] == share
+    still = replace(run, t_det=np.full_like(run.t_det, np.nan))  # ends before a block detaches
+    assert not media.told(still)["detached"]
+
+
+def test_means_are_those_of_ensembles_with_the_constants_of_the_study(springblock, tmp_path):
+    own, other, table = (tmp_path / f"{name}.parquet" for name in ("own", "other", "realisations"))
+    how = "simulate", "--n-blocks", 8, "--duration", 2e-6, "--output"
+    springblock(*how, own)
+    springblock(*how, other, "--gamma", "4321")
+    springblock("aggregate", own, other, "--output", table)
+    said = re.sub(r"<script.*", "", page([table], {}), flags=re.DOTALL)
+    means = said.partition('id="means"')[2].partition("</section>")[0]
+    assert means.count("<tr>") == 2  # a heading and one ensemble
+    assert "4321" not in means
+    assert "2 realisations" in said
+
+
+def test_captions_are_those_that_pictures_keep(picture):
+    declared = FIGURES["figure_6"]
+    shown = media.picture(picture("figure_6.png", f"{declared.caption} N = 120, seeds 0 to 19."))
+    assert (shown["caption"], shown["sample"]) == (declared.caption, "N = 120, seeds 0 to 19.")
+    assert declared.title in shown["title"]
+    assert media.picture(picture("sweep_x.png", "Another."))["caption"] == "Another."
+
+
+def test_nothing_given_becomes_part_of_the_page(nasty):
+    """Names of files, captions, tables and pages may hold what looks like HTML."""
+    text = nasty.read_text(encoding="utf-8")
+    assert "<img src=x" not in text
+    assert 'href="javascript:' not in text
+    assert text.count("&lt;img src=x") >= 8
+
+
+def test_a_page_of_the_same_files_has_the_same_bytes(picture):
+    files = [picture("figure_1.png", "a"), picture("stability.png", "b")]
+    assert page(files, {}) == page(files, {})
+
+
+def test_a_file_that_is_neither_picture_page_nor_table_is_refused(tmp_path):
+    with pytest.raises(ValueError, match=r"of type \.png, \.md, \.parquet, not .*notes\.txt"):
+        page([tmp_path / "notes.txt"], {})
