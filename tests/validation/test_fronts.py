@@ -26,7 +26,7 @@ import math
 
 import pytest
 
-from springblock.accuracy.stability.surfaces import rupture_front
+from springblock.study.accuracy.stability.surfaces import rupture_front
 
 
 @pytest.mark.parametrize("prestress", [0.6, 0.8])

@@ -52,8 +52,8 @@ PLAIN = Material(
 #: States of a stripe, and loads of a square, at which the force is computed.
 _STATES, _LOADS = 200, 20
 #: Values of mu_d and kappa for which the best width is shown.
-MU_D = (0.1, 0.3, 0.45, 0.6, 0.75, 0.9)
-KAPPA = (0.1, 0.2, 0.35, 0.5, 1.0, 1.4, 2.0, 4.0)
+MU_D = (0.1, 0.3, 0.6, 0.75, 0.9)
+KAPPA = (0.1, 0.2, 0.35, 0.5, 0.8, 1.2, 2.0, 4.0)
 _BEST = 3.0, 40.0  #: widths among which the best one is looked for
 #: Decrease of slip, in Delta/k, that is rounding.
 _SLACK = 1e-9
@@ -156,7 +156,14 @@ class _Weakening(NamedTuple):
 
 
 def _load(zone: _Weakening, s: float, residual: float, pull: float) -> float:
-    """Return p for fronts at s: the condition on u at the edge is solved by a root."""
+    """Return p for fronts at s, from the condition on u at the edge.
+
+    It is linear in p where the whole slip zone weakens, and solved by a root elsewhere.
+    """
+    rise = zone.slope(s) + pull * zone.f(s)
+    within = (rise - pull * residual) / (rise + pull)
+    if s <= zone.length(within):
+        return within
 
     def unbalanced(p: float) -> float:
         y = min(s, zone.length(p))
@@ -175,7 +182,7 @@ def best_width(residual: float, kappa: float) -> float:
         width = math.exp(log_width)
         return stripe(width, width, residual, kappa).excess
 
-    found = minimize_scalar(excess, bounds=np.log(_BEST), method="bounded", options={"xatol": 1e-3})
+    found = minimize_scalar(excess, bounds=np.log(_BEST), method="bounded", options={"xatol": 0.01})
     return math.exp(found.x)
 
 
