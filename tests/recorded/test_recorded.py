@@ -198,7 +198,9 @@ def fields() -> str:
 
 def reasons() -> str:
     """Values of the page on the mechanism."""
-    found = mechanism.values(chapter.rows(), chapter.damped(), chapter.settings())
+    found = mechanism.values(
+        chapter.rows(), chapter.damped(), chapter.springs(), chapter.settings()
+    )
     return "\n".join(f"| {name} | {value}" for name, value in found.items()) + "\n"
 
 

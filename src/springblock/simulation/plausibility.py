@@ -49,7 +49,7 @@ def of_input(surface: Surface, setup: Setup) -> Iterator[str]:
         yield from filter(None, [resolution.lattice(material)])
 
 
-def of_run(surface: Surface, setup: Setup, run: Run) -> Iterator[str]:
+def of_run(surface: Surface, setup: Setup, direction: str | float, run: Run) -> Iterator[str]:
     """Yield doubts about the results of a run."""
     found, strongest = run.static_friction, surface.strongest
     if 0.0 < _LARGEST * strongest < found and not _is_quick(surface, setup):
@@ -58,7 +58,7 @@ def of_run(surface: Surface, setup: Setup, run: Run) -> Iterator[str]:
             "more than half: it is that of inertia and damping; check pressure, slider_velocity "
             "and gamma"
         )
-    yield from resolution.doubts(surface, setup.material, run)
+    yield from resolution.doubts(surface, setup.material, direction, run)
 
 
 def _is_quick(surface: Surface, setup: Setup) -> bool:

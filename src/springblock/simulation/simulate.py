@@ -100,7 +100,7 @@ def simulate(
             motion.proceed(pause)
             bar.update(motion.samples - bar.n)
     run = _result(motion, snapshots, at_samples)
-    plausibility.warn(plausibility.of_run(surface, setup, run))
+    plausibility.warn(plausibility.of_run(surface, setup, direction, run))
     return run
 
 
