@@ -6,7 +6,6 @@ from functools import cache
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
-from matplotlib.patches import FancyArrowPatch
 
 from springblock import Pattern, Realisation, Surface, plot, simulate
 from springblock.plotting.maps import painted, scale
@@ -56,10 +55,6 @@ PICTURES = {
     **{f"fields {count}": lambda k=count: plot_fields(kept(k), "its name") for count in (1, 5)},
     **{name: lambda c=c: show(c, 30, "its name") for name, c in SURFACES.items()},
 }
-
-
-def test_a_run_is_named_by_its_columns_and_rows():
-    assert oblong().name == "9 x 12 blocks"
 
 
 def test_colours_tell_when_a_block_has_detached(run):
@@ -133,24 +128,3 @@ def test_blocks_are_those_of_the_mask(name):
     np.testing.assert_array_equal(detail.images[0].get_array(), contact[bottom:top, left:right])
     assert contact[bottom:top, left:right].any()
     assert (top - bottom, right - left) == tuple(np.minimum(contact.shape, 24))
-
-
-@pytest.mark.parametrize(
-    ("direction", "said", "towards"),
-    [
-        ("x", "$x$", (1, 0)),
-        (90, "$y$", (0, 1)),
-        ("30", "30°", (np.sqrt(0.75), 0.5)),
-        (180, "180°", (-1, 0)),
-    ],
-)
-def test_the_arrow_goes_where_the_slider_goes(direction, said, towards):
-    whole = show(GROOVED.contact, direction).axes[0]
-    (arrow,) = whole.findobj(FancyArrowPatch)
-    corners = arrow.get_path().vertices[:-1]  # the last one closes the head
-    way = corners - corners[0]
-    tip = way[np.argmax(np.hypot(*way.T))]
-    assert tip / np.hypot(*tip) == pytest.approx(towards, abs=1e-6)
-    (label,) = [text for text in whole.texts if text.get_text() == f"sliding direction {said}"]
-    whole.figure.draw_without_rendering()
-    assert label.get_window_extent().x1 < arrow.get_window_extent().x0

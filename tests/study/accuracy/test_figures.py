@@ -8,8 +8,7 @@ import pandas as pd
 import pytest
 
 from precision import production_rows
-from springblock import Setup
-from springblock.model.defaults import PAPER_STEP, STEP
+from springblock.model.defaults import STEP
 from springblock.study.accuracy.conventions import (
     ENSEMBLE,
     MEANS,
@@ -104,16 +103,6 @@ def test_every_single_run_is_shown(letter, scene):
     wanted = chosen(table(), comparison="reference", scene=scene, quantity="t_det before horizon")
     assert len(wanted) == 20
     check_points(panel(letter), wanted[["force_evaluations", "error"]])
-
-
-def test_rings_mark_the_default_and_the_paper():
-    default = Setup()
-    rings = [line for line in panel("a").lines if line.get_linestyle() == "None"]
-    runs = chosen(table(), comparison="reference", scene="flat", quantity="t_det before horizon")
-    marked = ((default.integrator, default.step), (PLAIN, PAPER_STEP))
-    for ring, (integrator, step) in zip(rings, marked, strict=True):
-        row = chosen(runs, integrator=integrator, step=step)
-        assert ring.get_xydata().tolist() == row[["force_evaluations", "error"]].values.tolist()
 
 
 @pytest.mark.parametrize(("letter", "scene"), list(zip("def", SCENES, strict=True)))

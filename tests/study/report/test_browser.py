@@ -56,15 +56,6 @@ def test_every_part_of_the_report_is_shown(whole, opened, width):
         assert page.locator(MUTE).count() == page.evaluate(BROKEN) == 0, name
 
 
-def test_a_statement_unfolds_below_its_figure(study, opened):
-    page = opened(study / "results/report.html")
-    page.locator("nav a[href='#figures']").click()
-    page.locator(".compared > summary").last.click()
-    statement = page.locator(".compared").last.locator(".statement").first
-    statement.locator("summary").click()
-    expect(statement.get_by_text("cases hold")).to_be_in_viewport()
-
-
 def test_tables_are_searched_and_sorted(opened, tmp_path):
     held, report = tmp_path / "held.parquet", tmp_path / "report.html"
     sizes = [20, 6, 100] * 10
@@ -132,18 +123,6 @@ def test_figures_can_be_enlarged_in_their_own_box(study, opened, width):
         assert page.evaluate(OVERFLOW) <= 0
     assert widths[0] < widths[1]
     assert frame.bounding_box()["width"] < widths[1]
-
-
-def test_films_wait_until_they_are_started(study, opened):
-    page = opened(study / "results/report.html")
-    page.locator("nav a[href='#films']").click()
-    assert page.locator(".film").count() == 3
-    for film in page.locator(".film").all():
-        still, moving = film.locator("img").all()
-        for shown, hidden in ((still, moving), (moving, still)):
-            expect(shown).to_be_visible()
-            expect(hidden).to_be_hidden()
-            film.locator("summary").click()
 
 
 def test_without_scripts_all_parts_can_be_read(study, browser):

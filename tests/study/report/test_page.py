@@ -19,10 +19,6 @@ from springblock.study.report.page import report_page as page
 from springblock.study.results import FIGURES
 
 
-def test_each_statement_belongs_to_a_figure():
-    assert {f"figure_{each.figure}" for each in STATEMENTS} <= FIGURES.keys()
-
-
 @pytest.fixture
 def untested(tmp_path):
     """The table of statements of a study without data."""
@@ -134,11 +130,6 @@ def test_nothing_given_becomes_part_of_the_page(nasty):
     assert "<img src=x" not in text
     assert 'href="javascript:' not in text
     assert text.count("&lt;img src=x") >= 8
-
-
-def test_a_page_of_the_same_files_has_the_same_bytes(picture):
-    files = [picture("figure_1.png", "a"), picture("stability.png", "b")]
-    assert page(files, {}) == page(files, {})
 
 
 def test_a_file_that_is_neither_picture_page_nor_table_is_refused(tmp_path):
