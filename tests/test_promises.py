@@ -1,4 +1,4 @@
-"""The promises of docs/reliability.md, each provoked in a small study."""
+"""The promises of docs/scaling.md, each provoked in a small study."""
 
 import re
 import shutil

@@ -7,7 +7,7 @@ import pytest
 
 from springblock import Material
 from springblock.solver.integrators import INTEGRATORS
-from springblock.study.results import FIGURES
+from springblock.study.results import FIGURES, PAGES, TABLES
 from studies import PAPER, ROOT, SCHEMA, TINY, Study
 
 WHOLE = {"configuration": ("config/config.yaml",)}
@@ -63,9 +63,9 @@ def test_every_stage_can_be_planned_by_its_name(tmp_path, file):
     beside |= {"fields_of_scene": "fields", "compile": "compiled", "mask": "masks"}
     assert {*beside.values()} <= named
     assert study.planned("--forceall", "--", *named, **how).keys() >= named
-    text = (ROOT / "docs/workflow.md").read_text()
-    drawn = ("figure_", "supplement", "sweep_", "surfaces")
-    assert {name for name in named if not name.startswith(drawn)} <= {*re.findall(r"`(\w+)`", text)}
+    text = (ROOT / "config/README.md").read_text()
+    known = {*re.findall(r"`(\w+)`", text), *FIGURES, *PAGES, *(f"{name}_table" for name in TABLES)}
+    assert {name for name in named if not name.startswith("sweep_")} <= known | {"all"}
 
 
 def test_lengths_of_a_figure_that_no_scene_has_are_refused(study):
