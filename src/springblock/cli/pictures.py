@@ -88,7 +88,7 @@ def plot(
         observables = observables or ("static_friction",)
         picture = sweep.draw(found, over, observables)
         caption = sweep.caption(found)
-        if left_out := len(rows) - len(sweep.drawn(found)):
+        if left_out := len(rows) - len(found):
             click.echo(f"Left out: {left_out} realisations of surfaces with a single {over}")
     for output in outputs:
         save(picture, output, caption)
