@@ -23,11 +23,15 @@ NAMES = {
 
 
 def values(
-    models: list[Row], strong: list[Row], springs: list[Row], settings: list[Row]
+    models: list[Row],
+    strong: list[Row],
+    springs: list[Row],
+    grooves: list[Row],
+    settings: list[Row],
 ) -> dict[str, Any]:
     """Return what the template names, from the rows of the tables."""
-    tables = map(pd.DataFrame, (models, strong, springs, settings))
-    friction, damped, other, sensitivities = tables
+    tables = map(pd.DataFrame, (models, strong, springs, grooves, settings))
+    friction, damped, other, grooved, sensitivities = tables
     sizes = friction.groupby("n_p")
     plain = sensitivities[sensitivities["edges"] == "free"]
     damping = sensitivities[sensitivities["varied"].isin(["", "gamma", "edges"])]
@@ -48,6 +52,10 @@ def values(
                 "uneven": rows[rows["n_p"] == SIZE]["stress_variation"].iloc[0],
             }
             for thickness, rows in other.groupby("thickness")
+        },
+        "grooves": {
+            name: [mean_interval(rows[column]) for column in ("static_friction", "prominence")]
+            for name, rows in grooved.groupby("model", sort=False)
         },
         "damped": {gamma: _of_damping(rows) for gamma, rows in damped.groupby("gamma")},
         "settings": _grouped(plain, "varied", "value")

@@ -6,9 +6,10 @@ import numpy as np
 import pyarrow as pa
 from tqdm import tqdm
 
+from springblock.analysis.statistics import prominence
 from springblock.io.identity import identity
 from springblock.io.rows import Row
-from springblock.io.schemas import SCENE, column, numbers
+from springblock.io.schemas import SCENE, column, numbers, texts
 from springblock.model.scene import Scene
 from springblock.model.surface import Surface
 from springblock.simulation.prelude import compute_prelude
@@ -36,6 +37,48 @@ FRICTION = pa.schema(
         ),
     ]
 )
+
+
+#: Models that are compared on grooves, where load transfer without inertia takes minutes.
+ON_GROOVES = ("sticking", "overshooting", "collective", "simulation")
+#: Share of the largest force below which the main drop has come.
+_DROPPED = 0.92
+
+GROOVES = pa.schema(
+    [
+        column("seed", pa.int64(), "1", "seed of the friction coefficients"),
+        *texts(model=f"one of {', '.join(ON_GROOVES)}"),
+        *numbers(
+            "1",
+            static_friction="static friction",
+            prominence="prominence of the second load peak up to the main drop, over the largest",
+        ),
+    ]
+)
+
+
+def measure_grooves(part: str) -> Iterator[Row]:
+    """Yield one row per seed and model for sliding along grooves."""
+    (surface,) = PARTS[part]
+    setup, contact = setup_of(surface), surface.contact
+    layer, normal_force = Layer(contact, setup.material), setup.material.block_load * contact.size
+    load = normal_force / np.count_nonzero(contact)
+    for seed in tqdm(range(SEEDS), desc=str(surface), unit="seed"):
+        drawn = Surface.draw(contact, seed, setup.material)
+        forces = [load * mu[contact] for mu in (drawn.mu_static, drawn.mu_dynamic)]
+        for name in ON_GROOVES:
+            if name == "simulation":
+                curve = simulate(drawn, setup, surface.direction).force
+            else:
+                curve = getattr(models, name)(layer, *forces).force
+            peak = int(np.argmax(curve))
+            end = peak + int(np.argmax(np.append(curve[peak:], 0.0) < _DROPPED * curve[peak]))
+            yield {
+                "seed": seed,
+                "model": name,
+                "static_friction": curve.max() / normal_force,
+                "prominence": prominence(curve[: end + 1]),
+            }
 
 
 def measure(part: str) -> Iterator[Row]:
