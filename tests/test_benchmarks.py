@@ -10,7 +10,6 @@ from benchmarks import speed
 from benchmarks.peers import c_loop, lammps_lattice
 from benchmarks.timing import Missing
 from springblock.model.scene import Scene
-from springblock.solver.integrators import INTEGRATORS
 
 
 def test_c_loop_moves_as_the_solver():
@@ -42,10 +41,3 @@ def test_the_benchmark_prints_one_table(monkeypatch):
         assert re.search(rf"^ *kernel +{name} ", outcome.output, re.MULTILINE)
     assert re.search(r"^ *kernel +LAMMPS +missing .* not installed$", outcome.output, re.MULTILINE)
     assert re.search(r"^ *kernel +leapfrog .* 1\.00 ", outcome.output, re.MULTILINE)
-
-
-@pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_all_blocks_move_while_kernels_are_timed(integrator):
-    solver = speed.Solver(integrator, 16)
-    solver.advance(speed.STEPS)
-    assert np.any(solver.velocity, axis=0).all()
