@@ -122,16 +122,6 @@ def test_changes_of_the_same_seeds_at_two_dampings_count_once(springblock, batch
         assert found == pytest.approx(list(exact), rel=1e-9)
 
 
-def test_runs_of_two_durations_are_two_ensembles_in_either_order(springblock, batch, tmp_path):
-    """The force still rises in the shorter ones."""
-    files, output = (batch(0, 1), batch(0, 1, "--duration", 2e-6)), tmp_path / "a.csv"
-    for order in (files, files[::-1]):
-        springblock("table", *order, "--of", "static_friction", "--output", output)
-        rows = written(output)
-        assert [(row["duration"], row["runs"]) for row in rows] == [("0.0", "2"), ("2e-06", "2")]
-        assert float(rows[0]["static_friction"]) > 10.0 * float(rows[1]["static_friction"])
-
-
 def test_directions_are_compared_with_the_smallest_angle(springblock, batch, tmp_path):
     """Which is x: as text, 30 and 45 would come before it."""
     files = [batch(0, 1, "--direction", angle) for angle in ("45", "y", "x", "30", "-20")]
@@ -139,6 +129,10 @@ def test_directions_are_compared_with_the_smallest_angle(springblock, batch, tmp
     springblock("table", *files, "--changes", "--of", "t_max", "--output", output)
     ends = [(row["from"], row["to"]) for row in written(output)]
     assert ends == [("direction = -20", angle) for angle in ("x", "30", "45", "y")]
+    said = springblock("table", *files)
+    assert "45°" in said
+    assert "warning" not in said
+    assert "law coulomb" in springblock("table", batch(0, 1, "--n-p", 3, "--n-s", 3))
 
 
 LAW = """

@@ -80,19 +80,8 @@ GROUPS = {
 def test_a_figure_is_drawn_from_scenes_that_it_can_tell_apart(name, scenes):
     lengths = {"n_p": 20} if name == "figure_5" else {}
     assert FIGURES[name].scenes(GROUPS, lengths) == scenes
-
-
-def test_a_group_that_a_study_may_have_is_drawn_where_it_has_it():
-    few = [Scene(126, 7, 7), Scene(120, 4, 4)]  # sizes that need another N
-    scenes = FIGURES["figure_6"].scenes(GROUPS | {"small_pillars": few}, {})
-    assert scenes == [FLAT, SMALL, LARGE, *few]
-
-
-def test_figures_need_no_more_tables_than_they_show():
-    (batch,) = PAPER.needed("figure_3")
-    assert batch == PAPER.batches(PAPER.groups["flat"])[0]
-    tables = "correlation", "correlation_length"
-    assert PAPER.needed("figure_7") == [f"results/tables/{name}.parquet" for name in tables]
+    few = [Scene(126, 7, 7), Scene(120, 4, 4)] if name == "figure_6" else []  # need another N
+    assert FIGURES[name].scenes(GROUPS | {"small_pillars": few}, lengths) == [*scenes, *few]
 
 
 @pytest.mark.parametrize("plan", [PAPER, FULL, QUICK])
@@ -165,12 +154,9 @@ def test_scenes_that_a_figure_cannot_tell_apart_are_refused(tmp_path):
 
 
 def test_a_pattern_is_drawn_from_options(tmp_path):
-    """Three pillars each way of the many that there are."""
     lengths = ["--n-blocks", "40", "--n-p", "2", "--n-s", "2"]
     output = ["--output", str(tmp_path / "figure.png")]
     assert CliRunner().invoke(main, ["figure", "figure_4", *lengths, *output]).exit_code == 0
-    surface, _ = FIGURES["figure_4"].function()(Scene(40, 2, 2).pattern).axes
-    assert surface.images[0].get_array().shape == (12, 12)
     assert "a flat surface has no pillar" in refusal("figure_4", "--n-blocks", "8", *output)
 
 

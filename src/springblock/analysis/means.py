@@ -68,6 +68,8 @@ def _heading(name: str, value: Any) -> str:
 def _cell(name: str, value: Any) -> str:
     if isinstance(value, Interval):
         return number(value, factor=1e6 if _is_time(name, value) else 1.0)
+    if name == "direction" and value not in ("x", "y"):
+        return f"{value}°"
     none = value is None or (name in _NONE_AT_ZERO and not value)
     return "" if none else str(value)
 

@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import traceback
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -21,6 +22,7 @@ COMMANDS = {
     "prelude": "springblock.cli.simulate:prelude",
     "simulate": "springblock.cli.simulate:simulate_batch",
     "sweep": "springblock.cli.sweep:sweep",
+    "refine": "springblock.cli.refine:refine_lattice",
     "plot": "springblock.cli.pictures:plot",
     "animate": "springblock.cli.pictures:animate",
     "show": "springblock.cli.pictures:show",
@@ -107,6 +109,7 @@ class _LazyGroup(click.Group):
         os.environ["MPLBACKEND"] = "agg"  # that of a notebook's kernel may be unknown here
         os.environ.pop("NUMBA_DISABLE_JIT", None)  # kernels have parts that are only compiled
         use_long_vectors()
+        warnings.formatwarning = lambda message, *_, **__: f"warning: {message}\n"
         command: click.Command = resolve_name(COMMANDS[cmd_name])
         return command
 

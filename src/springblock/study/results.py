@@ -156,8 +156,8 @@ def having(lengths: Lengths, scenes: Iterable[Scene]) -> list[Scene]:
 
 def file_name(scene: Scene) -> str:
     """Name the file of a surface's film, in letters, digits and _."""
-    if scene.mask:
-        return re.sub(r"\W", "_", str(scene.mask))
+    if scene.level < 0:
+        return re.sub(r"\W", "_", str(scene.mask or scene.folder))
     kinds = ("flat_surface", "grooves", "grooves"), ("", "pillars", "grooved_pillars")
     rows = {"rows": scene.n_rows} if scene.n_rows != scene.n_blocks else {}
     sizes = scene.lengths | {"N": scene.n_blocks} | rows

@@ -5,13 +5,12 @@ import pytest
 
 from analysis.test_correlation import times
 from springblock import Pattern, Setup, Surface, simulate
-from springblock.io.parquet import rows_to_table
 from springblock.io.rows import select
 from springblock.model.defaults import STEP
 from springblock.model.scene import Scene
 from springblock.study.accuracy import production, work_precision
 from springblock.study.accuracy.conventions import DELAY, LENGTH, SCENES
-from springblock.study.accuracy.production import SCHEMA, STEPS, measure, of_length, of_mean
+from springblock.study.accuracy.production import STEPS, measure, of_length, of_mean
 
 SEEDS = 4
 
@@ -42,16 +41,6 @@ def test_the_bias_of_a_length_is_told_where_sides_correlate_further():
     assert found[STEP]["value"] - found[5e-9]["value"] == pytest.approx(found[STEP]["bias"])
     unpaired = found[STEP]["deviation"] / 60**0.5
     assert found[STEP]["bias_error"] < 0.7 * unpaired
-
-
-def test_rows_are_those_of_the_table_without_a_bias_at_the_finest_step(rows):
-    table = rows_to_table(rows, SCHEMA)
-    assert all(set(row) == set(SCHEMA.names) for row in rows)
-    assert table.num_rows == 5 * len(STEPS)
-    for row in rows:
-        if row["step"] == min(STEPS):
-            assert row["bias"] == row["ci_low"] == row["ci_high"] == row["bias_error"] == 0.0
-        assert row["cpu_seconds"] > 0.0
 
 
 def test_rows_hold_what_simulate_yields(rows):

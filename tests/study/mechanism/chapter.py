@@ -32,6 +32,11 @@ def damped() -> list[Row]:
     ]
 
 
+def springs() -> list[Row]:
+    """Return `mechanism_springs`, for half and twice K_s: thickness goes with K_s^(-1/2)."""
+    return [row for factor in (0.5, 2.0) for row in rows(thickness=1e-5 / factor**0.5)]
+
+
 def settings() -> list[Row]:
     """Return `sensitivities` of a few settings."""
     quantities = {"size": 6.0, "friction": 0.6, "depth": 0.05, "lag": -1e-5, "prominence": 0.03}

@@ -65,10 +65,3 @@ def test_pillars_are_those_of_the_mask(figure, pattern, portion):
         pillar.images[0].get_array(), pattern.contact[y : y + size, x : x + size]
     )
     assert surface.get_ylim() == (-0.5, portion - 0.5)  # dimensions do not stretch the panel
-
-
-def test_patterns_without_what_is_shown_are_refused():
-    with pytest.raises(ValueError, match="no pillar"):
-        FIGURES["figure_4"].function()(Pattern.flat(8))
-    with pytest.raises(ValueError, match="no second level"):
-        FIGURES["figure_8"].function()(PILLARS)

@@ -38,6 +38,7 @@ def values(
         "found": found,
         "size": lowest_size(realisations),
         "usual": limit["usual"],
+        "best": limit["best"],
         "last": max(abs(row["last"]) for row in limit["squares"]),
         "coulomb": limit["coulomb"]["least"],
         "errors": accuracy.errors(production),

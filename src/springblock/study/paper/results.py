@@ -16,7 +16,7 @@ from springblock.model.numbers import Array
 from springblock.model.scene import CONSTANTS
 from springblock.plotting import curves, maps, style
 from springblock.plotting.style import BLACK, BLUE, FORCE, GREY, MICRO, VERMILION, Look
-from springblock.simulation.run import Run, friction
+from springblock.simulation.run import Run
 
 if TYPE_CHECKING:  # read by the command, and only then
     import pandas as pd
@@ -63,7 +63,7 @@ def figure_2(runs: Sequence[Run]) -> Figure:
         curves.draw_run(upper, lower, run, others, span)
     force, _, blocks, enlarged = panels
     for ax, name in ((force, "enlarged at the right"), (blocks, None)):
-        ax.axvspan(*zoom, color="0.93", linewidth=0.0, zorder=0, label=name)
+        ax.axvspan(*zoom, facecolor="none", edgecolor=BLACK, linestyle=":", zorder=0, label=name)
     style.legend_above(picture, force, blocks, ncols=4)
     end, height, before = MICRO * run.t_max, 6.0, MICRO * _BEFORE
     maps.arrow(enlarged, (end, height), (end - 0.8 * before, height))
@@ -266,11 +266,11 @@ def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
 def figure_9(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
     """Draw force and detachments on grooved pillars, a row for each pattern, with the same axes.
 
-    Rows in descending order of their clearest second load peak.
+    Rows in descending order of the clearest second load peak of the mean force.
     """
     found = {key: statistics.whole_curve(runs) for key, runs in sorted(ensembles.items())}
-    falls = {key: [statistics.prominence(friction(run)) for run in ensembles[key]] for key in found}
-    clearest = sorted(falls, key=lambda key: -np.mean(falls[key]))
+    falls = {key: statistics.prominence_of_mean(ensembles[key]) for key in found}
+    clearest = sorted(falls, key=lambda key: -float(falls[key].mean))
     rows = list(dict.fromkeys(key[:-1] for key in clearest))
     letters = [ascii_lowercase[2 * i : 2 * i + 2] for i in range(len(rows))]
     look: Look = {"width_ratios": (95, 57), "sharex": True}
@@ -281,16 +281,18 @@ def figure_9(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
         for direction, curve in [(key[-1], found[key]) for key in found if key[:-1] == row]:
             color, name = _WAYS.get(direction, (style.GREEN, f"at {direction}° to grooves"))
             curves.draw_single_forces(force, curve, color)
-            curves.draw_load_peaks(force, curve, color, name)
+            curves.draw_mean_force(force, curve, color, name)
             curves.draw_detachments(blocks, curve, color)
+            curves.draw_load_peaks(force, blocks, ensembles[*row, direction], color)
             told.append(f"{name.removesuffix(' grooves')} {_percent(falls[*row, direction])}")
         force.set_ylabel(FORCE)
-        named = f"{_pattern_name(row)}: force falls between its peaks by"
+        named = f"{_pattern_name(row)}: mean force falls between its peaks by"
         force.set_title("\n".join([named, ", ".join(told)]), loc="right", fontsize="medium")
         force.sharey(panels[0])
         blocks.sharey(panels[1])
     _fit_forces(panels[0], list(found.values()))
-    panels[1].set_ylim(0.0, 1.04 * max(ax.dataLim.y1 for ax in panels[1::2]))
+    panels[1].set(yscale="log", ylim=(_FLOOR, 100.0))
+    panels[1].yaxis.set_major_formatter("{x:g}")
     for ax in panels[-2:]:
         ax.set_xlabel("time (µs)")
     peak: Look = {"marker": "v", "linestyle": "none", "label": "load peak of the mean"}
@@ -312,10 +314,10 @@ def _pattern_name(pattern: tuple[int, int, int, int, str]) -> str:
     return ", ".join(levels) + (f", cut along {along_3}" if along_3 else "")
 
 
-def _percent(shares: Sequence[float]) -> str:
-    """Return the mean of shares in percent and, of several, its interval."""
-    mean, low, high = statistics.mean_interval(style.PERCENT * np.array(shares))
-    return f"{mean:.1f} %" + (f" [{low:.1f}, {high:.1f}]" if len(shares) > 1 else "")
+def _percent(share: Interval) -> str:
+    """Return a share in percent, with its interval if it has one."""
+    mean, low, high = (style.PERCENT * float(each) for each in share)
+    return f"{mean:.1f} %" + (f" [{low:.1f}, {high:.1f}]" if np.isfinite(low) else "")
 
 
 def _fit_forces(ax: Axes, every: Sequence[LoadCurves]) -> None:
