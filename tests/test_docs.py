@@ -92,7 +92,7 @@ def test_links_between_pages_lead_to_files_and_headings(page):
 
 
 def test_commands_that_pages_show_are_known_with_their_options():
-    """Those of the README, the howto and the lesson are run as well."""
+    """Those of the README, the lesson and pages of tasks are run as well."""
     context, shown = click.Context(main), 0
     for text in PAGES.values():
         lines = text.replace("\\\n", " ")
