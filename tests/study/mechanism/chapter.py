@@ -42,8 +42,9 @@ def grooves() -> list[Row]:
     values = {"sticking": (0.84, 0.001), "overshooting": (0.73, 0.01)}
     values |= {"collective": (0.69, 0.018), "simulation": (0.69, 0.02)}
     return [
-        {"model": name, "seed": seed, "static_friction": value, "prominence": dip + 1e-4 * seed}
-        for seed in (-1, 0, 1)
+        {"model": name}
+        | limits("static_friction", (value, value, value))
+        | limits("prominence", (dip, dip, dip))
         for name, (value, dip) in values.items()
     ]
 
