@@ -266,17 +266,3 @@ def test_a_law_is_another_one_when_a_file_that_it_lists_changes(tmp_path):
     file.write_text("INPUTS = ['mu.txt']\n" + FRICTION)
     with pytest.raises(ValueError, match=r"law.py: INPUTS must be a list of files: .*mu.txt"):
         LawFile.read(file)
-
-
-def test_a_law_may_be_compiled_already_and_its_numbers_and_units_be_of_any_kind(tmp_path):
-    """Numbers of NumPy, the micro sign and the Greek letter, and functions for numba."""
-    head = "import numpy as np\nCONSTANTS = {'\u00b5_0': (np.float32(0.5), '\u03bcm')}\n"
-    body = "def friction(\u00b5_0, mu_dynamic):\n    return mu_dynamic + \u00b5_0\n"
-    plain, compiled = tmp_path / "plain.py", tmp_path / "compiled.py"
-    plain.write_text(head + body, encoding="utf-8")
-    compiled.write_text(f"{head}from numba import njit\n@njit\n{body}", encoding="utf-8")
-    laws = [LawFile.read(file) for file in (plain, compiled)]
-    assert [law.units for law in laws] == 2 * [{"\u03bc_0": "\u00b5m"}]
-    assert laws[0].vary({"\u00b5_0": 0.25}).constants == {"\u03bc_0": 0.25}
-    runs = [one_block(replace(PAPER, law=law), 2e-5, 2e-8) for law in laws]
-    np.testing.assert_array_equal(runs[0].force, runs[1].force)
