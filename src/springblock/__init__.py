@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from springblock.simulation.run import Realisation as Realisation
     from springblock.simulation.setup import Setup as Setup
     from springblock.simulation.simulate import simulate as simulate
+    from springblock.theory.predict import predict as predict
 
     __version__: str
 else:  # mypy would accept any name if it saw `__getattr__`
@@ -46,6 +47,7 @@ else:  # mypy would accept any name if it saw `__getattr__`
         "draw_friction": "model.asperities",
         "ensemble": "analysis.runs",
         "plot": "plotting.still",
+        "predict": "theory.predict",
         "read": "io.records",
         "refine": "analysis.refine",
         "simulate": "simulation.simulate",

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scipy.stats import t, ttest_ind
+from scipy.stats import bootstrap, t, ttest_ind
 
 from springblock import Pattern
 from springblock.analysis.statistics import (
@@ -16,6 +16,7 @@ from springblock.analysis.statistics import (
     difference_interval,
     events,
     independent_difference,
+    interval_of_means,
     mean_interval,
     mean_of_rest,
     number,
@@ -23,7 +24,6 @@ from springblock.analysis.statistics import (
     pillar_ring,
     prominence,
     prominence_of_mean,
-    samples_interval,
     standard_error,
     whole_curve,
 )
@@ -76,9 +76,7 @@ def test_intervals_of_two_samples_cover_as_often_as_they_say():
     hits, trials, true = 0, 200, 0.5
     for _ in range(trials):
         samples = rng.normal(1.5, 1.0, 20), rng.normal(1.0, 0.5, 30)
-        found = samples_interval(
-            samples, lambda one, other, axis: one.mean(axis) - other.mean(axis)
-        )
+        found = interval_of_means(np.subtract, samples)
         hits += bool(found.low <= true <= found.high)
     assert 0.95 - 3.0 * np.sqrt(0.95 * 0.05 / trials) - 0.02 < hits / trials < 0.995
 
@@ -86,9 +84,19 @@ def test_intervals_of_two_samples_cover_as_often_as_they_say():
 def test_every_sample_is_resampled_by_itself():
     """The interval of a sum is that of its only varying part."""
     samples = np.zeros(5), np.random.default_rng(0).standard_normal(20)
-    both = samples_interval(samples, lambda one, other, axis: one.mean(axis) + other.mean(axis))
-    alone = samples_interval(samples[1:], np.mean)
+    both = interval_of_means(np.add, samples)
+    alone = interval_of_means(np.positive, samples[1:])
     assert both.high - both.low == pytest.approx(alone.high - alone.low, rel=0.15)
+
+
+def test_the_interval_is_scipys_bca(rng):
+    """From the same random numbers, for one sample and for several."""
+    samples = rng.exponential(size=12), rng.normal(3.0, 1.0, 30)
+    options = {"random_state": np.random.default_rng(0), "n_resamples": 2000, "method": "BCa"}
+    found = bootstrap(
+        samples, lambda one, two, axis: one.mean(axis) / two.mean(axis), **options
+    ).confidence_interval
+    assert interval_of_means(np.divide, samples)[1:] == pytest.approx(tuple(found), rel=1e-12)
 
 
 def test_surfaces_are_compared_as_independent_samples(rng):

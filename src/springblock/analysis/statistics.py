@@ -7,11 +7,9 @@ to 95 % than that of bootstrap percentiles. The observables are those of Costagl
 2022, doi:10.1016/j.ijsolstr.2022.111525.
 """
 
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from types import SimpleNamespace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -104,32 +102,43 @@ def independent_difference(first: Interval, second: Interval) -> Interval:
     return Interval(difference, difference - below, difference + above)
 
 
-def samples_interval(samples: Sequence[ArrayLike], statistic: Callable[..., Array]) -> Interval:
-    """A statistic of independent samples, (k,) each, with its 95 % BCa interval.
-
-    `statistic` takes samples, (..., k), and their `axis`, and returns values, (...). Each sample,
-    of at least two realisations, is resampled separately. Limits are percentiles if the statistic
-    does not change when any one realisation is omitted.
-    """
-    samples = tuple(np.asarray(part) for part in samples)
-    options = {"random_state": np.random.default_rng(0), "n_resamples": _RESAMPLES}
-    return _bca(np.asarray(statistic(*samples, axis=-1)), samples, statistic, **options)
-
-
-def _bca(
-    value: Array, samples: Sequence[Any], statistic: Callable[..., Array], **options: Any
+def interval_of_means(
+    function: Callable[..., Array | float], samples: Sequence[ArrayLike]
 ) -> Interval:
-    """Return a value with its BCa limits, or with percentiles if these do not exist."""
-    from scipy.stats import DegenerateDataWarning, bootstrap  # slow to import
+    """A function of the means of independent samples, (k,) each, with its 95 % BCa interval.
 
-    options |= {"method": "BCa", "vectorized": True, "confidence_level": _LEVEL}
-    with warnings.catch_warnings(), np.errstate(invalid="ignore", divide="ignore"):
-        warnings.simplefilter("ignore", DegenerateDataWarning)
-        found = bootstrap(samples, statistic, **options)
-    tail = 50.0 * (1.0 - _LEVEL)
-    plain = np.percentile(found.bootstrap_distribution, (tail, 100.0 - tail), axis=-1)
-    limits = np.asarray(found.confidence_interval)
-    return Interval(value, *np.where(np.isnan(limits), plain, limits))
+    Each sample, of at least two realisations, is resampled separately. Limits are percentiles if
+    the value does not change when any one realisation is omitted.
+    """
+    parts, rng = [np.asarray(sample) for sample in samples], np.random.default_rng(0)
+    means = [part.mean() for part in parts]
+    drawn = [rng.choice(part, (_RESAMPLES, len(part))).mean(axis=1) for part in parts]
+    omitted = [
+        np.asarray(function(*means[:i], (part.sum() - part) / (len(part) - 1), *means[i + 1 :]))
+        for i, part in enumerate(parts)
+    ]
+    return _bca(np.asarray(function(*means)), np.asarray(function(*drawn)), omitted)
+
+
+def _bca(value: Array, resampled: Array, omitted: Sequence[Array]) -> Interval:
+    """Return a value, (...), with its BCa limits, or with percentiles where these do not exist.
+
+    `resampled` are the values of resamples, (resamples, ...), and `omitted` those without one
+    realisation of each sample, (k, ...).
+    """
+    from scipy.special import ndtr, ndtri  # slow to import
+
+    tails = np.reshape([0.5 - 0.5 * _LEVEL, 0.5 + 0.5 * _LEVEL], (2, *[1] * value.ndim))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        bias = ndtri(0.5 * ((resampled < value).mean(axis=0) + (resampled <= value).mean(axis=0)))
+        slopes = [(x.mean(axis=0) - x) * (1.0 - 1.0 / len(x)) for x in omitted]
+        cubes, squares = (sum((u**n).sum(axis=0) for u in slopes) for n in (3, 2))
+        score = bias + ndtri(tails)
+        shares = ndtr(bias + score / (1.0 - cubes / (6.0 * squares**1.5) * score))
+    shares = np.where(np.isnan(shares), tails, shares)
+    columns = zip(resampled.reshape(len(resampled), -1).T, shares.reshape(2, -1).T, strict=True)
+    limits = np.array([np.quantile(column, share) for column, share in columns])
+    return Interval(value, *limits.T.reshape(2, *value.shape))
 
 
 def bootstrap_weights(k: int) -> Array:
@@ -155,16 +164,7 @@ def bootstrap_interval(statistic: Callable[[Array], Array], k: int) -> Interval:
     weights = bootstrap_weights(k)
     resampled = statistic(weights)
     resampled[np.ptp(weights, axis=1) == 0.0] = value  # BCa counts values that are equal to the bit
-    given = SimpleNamespace(bootstrap_distribution=np.moveaxis(resampled, 0, -1))
-
-    def of_indices(drawn: NDArray[np.intp], axis: int) -> Array:
-        flat = drawn.reshape(-1, drawn.shape[axis])
-        weights = np.stack([np.bincount(numbers, minlength=k) for numbers in flat]) / flat.shape[1]
-        values = np.moveaxis(statistic(weights), 0, -1)
-        return values.reshape((*values.shape[:-1], *drawn.shape[:-1]))
-
-    options = {"n_resamples": 0, "bootstrap_result": given}
-    return _bca(value, (np.arange(k),), of_indices, **options)
+    return _bca(value, resampled, [statistic((1.0 - np.eye(k)) / (k - 1))])
 
 
 def standard_error(values: Array) -> Array:

@@ -23,6 +23,7 @@ COMMANDS = {
     "simulate": "springblock.cli.simulate:simulate_batch",
     "sweep": "springblock.cli.sweep:sweep",
     "refine": "springblock.cli.refine:refine_lattice",
+    "predict": "springblock.cli.predict:predict",
     "plot": "springblock.cli.pictures:plot",
     "animate": "springblock.cli.pictures:animate",
     "show": "springblock.cli.pictures:show",

@@ -45,7 +45,7 @@ def _fields(files: tuple[Path, ...], options: object) -> Figure:
 @click.argument("files", type=INPUT, nargs=-1, required=True)
 @_SEED
 @click.option(
-    "--over", help="Parameter against which all runs are drawn: slider_velocity, n_p, ..."
+    "--over", help="Parameter against which all runs are drawn: contact_fraction, n_p, gamma, ..."
 )
 @click.option(
     "--of",
@@ -88,7 +88,7 @@ def plot(
         observables = observables or ("static_friction",)
         picture = sweep.draw(found, over, observables)
         caption = sweep.caption(found)
-        if left_out := len(rows) - len(sweep.drawn(found)):
+        if left_out := len(rows) - len(found):
             click.echo(f"Left out: {left_out} realisations of surfaces with a single {over}")
     for output in outputs:
         save(picture, output, caption)

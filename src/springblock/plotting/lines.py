@@ -1,12 +1,13 @@
 """Axes and lines of sweeps: scenes that differ in one parameter, and the names of their lines.
 
-This module loads no matplotlib: every start of the workflow reads it.
+This module loads neither matplotlib nor pandas: every start of the workflow reads it.
 """
 
 import math
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
 
 from springblock.io.rows import Row, scene_of
 from springblock.model.direction import degrees
@@ -14,12 +15,13 @@ from springblock.model.law import LawFile
 from springblock.model.material import LAWS, as_law
 from springblock.model.scene import AXES, CONSTANTS, FIELDS, GEOMETRY, LENGTHS, Scene, differing
 
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
 _DIGEST = re.compile(r"-[0-9a-f]{8}$")  #: at the end of the name of a mask
 
-
+SHARE = "contact_fraction"  #: axis that is no field of a scene
 Names = tuple[tuple[str, str], ...]
-Places = dict[float, list[Row]]  #: rows by their place on the axis
-Lines = dict[str, Places]  #: by name
 
 
 def axes(scenes: Iterable[Scene]) -> list[str]:
@@ -33,34 +35,38 @@ def _is_axis(name: str) -> bool:
     return name in AXES or name not in FIELDS  # of a law from a file
 
 
-def lines(rows: Iterable[Row], over: str) -> Lines:
-    """Return rows of the table `realisations` by place on an axis, for each line.
+def lines(rows: Iterable[Row], over: str) -> "DataFrame":
+    """Return rows of the table `realisations` with their `place` on an axis, and their `line`.
 
-    A line is named by its mask and by what differs from other lines. Lines with
-    one place are left out, unless all are such.
+    A line is named by its mask and by what differs from other lines. Lines with one place are left
+    out, unless all are such. A ModuleNotFoundError says if seaborn, which draws them, is missing.
     """
+    try:
+        import pandas as pd
+        import seaborn  # noqa: F401
+    except ModuleNotFoundError:
+        missing = "figures of sweeps need seaborn: pip install 'springblock[study]'"
+        raise ModuleNotFoundError(missing) from None
     scenes = [(scene_of(row), row) for row in rows]
-    scenes = [each for each in scenes if _is_axis(over) and over in each[0].values]
+    known = [(scene, row, _value(scene, row, over)) for scene, row in scenes]
+    scenes = [(scene, row, value) for scene, row, value in known if value is not None]
     if not scenes:
-        raise ValueError(f"unknown axis {over!r}; choose one of {', '.join(AXES)}")
-    found: dict[Names, Places] = {}
-    for scene, row in scenes:
-        line = found.setdefault(_others(scene, over), {})
-        line.setdefault(_place(scene.values[over]), []).append(row)
-    places = {place for line in found.values() for place in line}
-    if len(places) < 2:
+        raise ValueError(f"unknown axis {over!r}; choose one of {', '.join([SHARE, *AXES])}")
+    placed = [{"place": _place(value), "line": _others(s, over)} for s, _, value in scenes]
+    every = pd.DataFrame([row | more for (_, row, _), more in zip(scenes, placed, strict=True)])
+    if every["place"].nunique() < 2:
         raise ValueError(f"{over} has the same value in all realisations; choose another axis")
-    swept = {names: line for names, line in found.items() if len(line) > 1} or found
-    ordered = sorted(swept, key=lambda names: [_by_size(value) for _, value in names])
-    titles = _named(ordered, units_of(row for _, row in scenes))
-    pairs = zip(ordered, titles, strict=True)
-    return {title: dict(sorted(swept[names].items())) for names, title in pairs}
+    several = every.groupby("line")["place"].transform("nunique") > 1
+    found = every[several] if several.any() else every
+    ordered = sorted({*found["line"]}, key=lambda names: [_by_size(value) for _, value in names])
+    titles = dict(zip(ordered, _named(ordered, units_of(every["law"])), strict=True))
+    return found.assign(line=pd.Categorical(found["line"].map(titles), [*titles.values()]))
 
 
-def units_of(rows: Iterable[Row]) -> dict[str, str]:
-    """Return the units of constants, also of laws, by name; "" without one."""
+def units_of(laws: Iterable[str]) -> dict[str, str]:
+    """Return the units of constants, also of these laws, by name; "" without one."""
     units = {name: FIELDS[name].metadata["unit"] for name in (*CONSTANTS, "sample_interval")}
-    for law in map(as_law, {row["law"] for row in rows}):
+    for law in map(as_law, {*laws}):
         units |= law.units if isinstance(law, LawFile) else {}
     return {name: "" if unit == "1" else unit for name, unit in units.items()}
 
@@ -83,6 +89,13 @@ def _named(every: list[Names], units: Mapping[str, str]) -> list[str]:
         told = [f"{in_math(name)} = {own[name]} {units.get(name, '')}".rstrip() for name in shown]
         found.append(", ".join(filter(None, [surface, *told])) or "as the study")
     return found
+
+
+def _value(scene: Scene, row: Row, over: str) -> str | float | None:
+    """Return the value of a run on an axis, None if it has none."""
+    if over == SHARE:
+        return float(row[SHARE])
+    return scene.values.get(over) if _is_axis(over) else None
 
 
 def _place(value: str | float) -> float:
@@ -109,6 +122,9 @@ def _others(scene: Scene, over: str) -> Names:
         del values["n_s"]
     if over in LAWS.values():  # at zero they are Coulomb's law
         del values["law"]
+    if over == SHARE:  # which follows from these
+        for name in ("mask", "n_blocks", "n_rows", "feature", "pitch", "width", *LENGTHS):
+            values.pop(name, None)
     return tuple(
         ("N" if name == "n_blocks" else name, str(value))
         for name, value in values.items()

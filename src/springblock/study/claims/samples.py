@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from springblock.analysis.estimate import UNKNOWN, Estimate
-from springblock.analysis.statistics import difference_interval, mean_interval, samples_interval
+from springblock.analysis.statistics import difference_interval, interval_of_means, mean_interval
 from springblock.io.records import Record
 from springblock.io.rows import Row
 from springblock.model.numbers import Array
@@ -65,11 +65,10 @@ def position(sample: Array, zero: Array, one: Array) -> Estimate:
     if fewest < 2 or scale.ci_low <= 0.0 <= scale.ci_high:
         return UNKNOWN
 
-    def relative_place(*parts: Array, axis: int) -> Array:
-        middle, start, end = (part.mean(axis=axis) for part in parts)
+    def relative_place(middle: Array, start: Array, end: Array) -> Array:
         return (middle - start) / (end - start)
 
-    return Estimate.of(samples_interval(samples, relative_place), fewest)
+    return Estimate.of(interval_of_means(relative_place, samples), fewest)
 
 
 def on_each(

@@ -10,9 +10,9 @@ import numpy as np
 from springblock.analysis.lowest import lowest
 from springblock.analysis.statistics import Interval, mean_interval
 from springblock.io.rows import Row, select
-from springblock.simulation.resolution import DECAY, ZONE
+from springblock.simulation.resolution import DECAY, STIFFNESS, ZONE
 from springblock.study.continuum.cases import SCATTER, lowest_point
-from springblock.theory.layer import KAPPA, MU_D, PLAIN, STIFFNESS, best_widths, sharp_minimum
+from springblock.theory.layer import KAPPA, MU_D, PLAIN, best_widths, sharp_minimum
 
 #: First words of the series that the predictions are not for, and of those with the paper's gaps,
 #: springs and mean coefficients.
