@@ -87,7 +87,7 @@ INTERPRETED := test_springs or test_release or test_laws or wherever_it_is \
 coverage: setup-tests
 	$(BIN)/coverage erase
 	$(BIN)/coverage run -m pytest $(PARALLEL) $(addprefix tests/,model analysis simulation solver \
-	    cli claims/test_rule.py claims/test_samples.py validation/test_law_files.py)
+	    cli study/claims/test_rule.py study/claims/test_samples.py validation/test_law_files.py)
 	NUMBA_DISABLE_JIT=1 $(BIN)/coverage run -m pytest -W ignore $(PARALLEL) --dist load \
 	    $(addprefix tests/solver/test_,springs.py release.py laws.py leapfrog.py) \
 	    $(addprefix tests/simulation/test_,fields.py simulation.py) \

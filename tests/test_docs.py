@@ -50,7 +50,7 @@ def test_the_symbols_of_the_model_are_those_of_the_code():
         assert hasattr(Realisation, name) or name in Realisation.__dataclass_fields__
 
 
-def test_the_readme_counts_the_verdicts_of_registered_tests_and_of_present_ones():
+def test_pages_count_the_verdicts_of_registered_tests_and_of_present_ones():
     with (ROOT / "docs/registration/confirmed.csv").open(encoding="utf-8", newline="") as file:
         registered = Counter(row["verdict"] for row in csv.DictReader(file))
     changed = sum(bool(each.changed) for each in STATEMENTS)
@@ -61,6 +61,11 @@ def test_the_readme_counts_the_verdicts_of_registered_tests_and_of_present_ones(
     (sentences,) = re.findall(r"Of \d+ tests.*?not tested", PAGES["README"], re.DOTALL)
     numbers = [int(number) for number in re.findall(r"\d+", sentences)]
     assert numbers == [*first, len(STATEMENTS), changed, *present]
+    for place in ("docs/claims.md", "docs/registration/README.md"):
+        text = " ".join((ROOT / place).read_text(encoding="utf-8").split())
+        said = re.search(r"gave,?[^.]* \d+ reproduced[^.]* not settled\.", text)
+        counts = re.findall(r"(\d+) (?:reproduced|in part|not)", said[0])
+        assert list(map(int, counts)) == [registered[name] for name in names]
 
 
 def test_the_readme_has_the_findings_that_reports_show():

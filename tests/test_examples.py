@@ -100,14 +100,6 @@ def test_the_readme_can_be_followed(study):
     assert stored.static_friction == pytest.approx(names["run"].static_friction, rel=1e-12)
 
 
-def test_what_the_page_on_the_study_plans_can_be_planned(study):
-    page = (ROOT / "config/README.md").read_text(encoding="utf-8")
-    steps = re.findall(r"snakemake -n (\w+)", page)
-    assert steps
-    for step in steps:
-        assert study.planned("--", step, configuration=("config/config.yaml",))
-
-
 def test_the_page_on_surfaces_can_be_followed(study):
     names = follow("surface.md", study)
     assert names["stored"].scene == Scene(24, 4, 4)

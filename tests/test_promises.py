@@ -4,23 +4,26 @@ import re
 import shutil
 import signal
 import time
+from dataclasses import replace
 from io import BytesIO
 
 import psutil
 import pyarrow.parquet as pq
 import pytest
 
-from springblock.provenance import PLAN, SIMULATE, planned
+from springblock.provenance import PLAN, SIMULATE, code_version, planned
 from studies import FEWER, Study
 
 TARGETS = ("simulate", "aggregate", "correlations", "figure_6")
 OTHER = {"material": {"slider_velocity": 5e-3, "gamma": 4e3}}
 
 
-@pytest.fixture(scope="session")
-def undisturbed(finished) -> Study:
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory) -> Study:
     """A finished study on one core, which no test changes."""
-    return finished("undisturbed", ("--cores", "1"), TARGETS, **FEWER)
+    begun = Study.begun(tmp_path_factory.mktemp("undisturbed"), **FEWER)
+    begun.run("--cores", "1", targets=TARGETS)
+    return replace(begun, options=("--cores", "1"), targets=TARGETS)
 
 
 @pytest.fixture
@@ -29,10 +32,13 @@ def study(undisturbed, tmp_path) -> Study:
     return undisturbed.copied(tmp_path / "study")
 
 
-@pytest.fixture(scope="session")
-def both(finished) -> Study:
+@pytest.fixture(scope="module")
+def both(undisturbed, tmp_path_factory) -> Study:
     """The same, run with another damping afterwards; it has the realisations of both."""
-    return finished("both", ("--cores", "1"), TARGETS, then=OTHER, **FEWER)
+    study = undisturbed.copied(tmp_path_factory.mktemp("both") / "study")
+    study.configure(**OTHER)
+    study.run()
+    return study
 
 
 def batch(study, scene="flat-x"):
@@ -154,6 +160,8 @@ def test_code_that_changes_while_a_study_runs_is_noticed(springblock, tmp_path, 
     words = "simulate", "--n-blocks", 4, "--output", tmp_path / "a.parquet"
     monkeypatch.setenv(PLAN, plan)
     springblock(*words)
+    made = pq.read_schema(tmp_path / "a.parquet").metadata
+    assert made[b"code_version"].decode() == code_version(SIMULATE)
     (tmp_path / "a.parquet").unlink()
     changed = re.sub(r'("simulate": \["\w+", ")\w', r"\1x", plan)
     monkeypatch.setenv(PLAN, changed)

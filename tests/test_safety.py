@@ -29,12 +29,6 @@ def test_rules_quote_every_path():
     assert all(each.endswith(":q") for each in placeholders)
 
 
-def test_any_name_can_be_planned(tmp_path):
-    study = Study.begun(tmp_path, results="मेरे 'results' $(a)")
-    flat = study.planned(targets=("aggregate",))
-    assert flat["simulate_batch"] > 0
-
-
 def test_a_repeated_key_and_an_unforeseen_error_are_one_sentence(tmp_path):
     study = Study.begun(tmp_path)
     configured = (study / "tiny.yaml").read_text()

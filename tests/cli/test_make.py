@@ -64,6 +64,7 @@ def test_a_page_whose_sentences_its_tables_contradict_is_not_written(springblock
     """Friction of the simulation is lowest on pillars of 20 and 6 blocks here."""
     tables = {"mechanism": chapter.rows(), "mechanism_damped": chapter.damped()}
     tables["mechanism_springs"] = chapter.springs()
+    tables["mechanism_grooves"] = chapter.grooves()
     tables["sensitivities"] = chapter.settings()
     for name, rows in tables.items():
         write(as_table(name, rows), tmp_path / name, {})

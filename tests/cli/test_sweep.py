@@ -92,6 +92,7 @@ def test_an_interrupt_ends_in_one_line_and_leaves_no_file(tmp_path):
         run = subprocess.Popen(
             [sys.executable, "-m", "springblock", *words],
             stderr=log,
+            env=os.environ | {"TQDM_DISABLE": ""},  # a bar in a file, too
             start_new_session=True,
             preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
         )

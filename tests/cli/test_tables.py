@@ -171,11 +171,6 @@ def test_other_thresholds_are_not_paired_and_ensembles_of_one_side_are_named(
         said = springblock("compare", batch(0, 2), batch(0, 2, *other))
         assert named in said
         assert "of means" in said
-    spaced = ("--spacing", 2e-5)
-    length = ("--correlation-length", 2e-5)  # is 2 blocks, then 1
-    assert "by seed" in springblock("compare", batch(0, 2), batch(0, 2, *spaced))
-    two = batch(0, 2, *length), batch(0, 2, *length, *spaced)
-    assert "of means" in springblock("compare", *two)
     for i, file in enumerate((batch(0, 2), batch(0, 2, "--slider-velocity", "1e-3"))):
         (tmp_path / f"{i}.parquet").write_bytes(file.read_bytes())
     said = springblock("compare", tmp_path, batch(0, 2))

@@ -199,7 +199,7 @@ def fields() -> str:
 def reasons() -> str:
     """Values of the page on the mechanism."""
     found = mechanism.values(
-        chapter.rows(), chapter.damped(), chapter.springs(), chapter.settings()
+        *(getattr(chapter, name)() for name in ("rows", "damped", "springs", "grooves", "settings"))
     )
     return "\n".join(f"| {name} | {value}" for name, value in found.items()) + "\n"
 

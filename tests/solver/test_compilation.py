@@ -6,14 +6,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-from numba import typeof
-
 from kernels import COMPILING, run_kernels
-from springblock import Material, Surface
 from springblock.solver import compilation
 from springblock.solver.compilation import _digest
-from springblock.solver.integrators import INTEGRATORS
-from springblock.solver.lattice import prepare
 
 
 def test_each_kind_of_processor_compiles_once(tmp_path):
@@ -61,15 +56,6 @@ def test_an_import_changes_no_setting_of_numba():
         assert dict(vars(numba.config)) == before
     """
     subprocess.run([sys.executable, "-c", script], check=True)
-
-
-def test_numba_tells_the_work_arrays_of_all_integrators_apart():
-    """By their names, by which machine code is linked: a step would be that of another one."""
-    names = set()
-    for each in INTEGRATORS.values():
-        how = Surface([[True]], 1.0, 0.6), Material(), (1.0, 0.0), each, 2e-8
-        names.add(typeof(each.kernels.Work.of(*prepare(*how))).name)
-    assert len(names) == len(INTEGRATORS)
 
 
 #: Saves code for one type while another process may do the same for another type.

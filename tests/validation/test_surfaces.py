@@ -8,10 +8,7 @@ from springblock import Material, Setup, Surface, draw_friction, simulate
 PAPER = Material()
 #: Loads a hundred times faster than the paper's: in 1500 steps all blocks detach.
 FAST = Material(slider_velocity=5e-2)
-LAWS = {
-    "slip_weakening": {"slip_distance": 4e-7},
-    "velocity_weakening": {"speed_scale": 0.1},
-}
+LAWS = {"slip_weakening": {"slip_distance": 4e-7}, "velocity_weakening": {"speed_scale": 0.1}}
 
 
 def oblong(shape, share=1.0, seed=0, periodic=False):

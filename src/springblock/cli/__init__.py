@@ -109,6 +109,8 @@ class _LazyGroup(click.Group):
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # idle threads would spin
         os.environ["MPLBACKEND"] = "agg"  # that of a notebook's kernel may be unknown here
         os.environ.pop("NUMBA_DISABLE_JIT", None)  # kernels have parts that are only compiled
+        if not sys.stderr.isatty():  # a bar is no log
+            os.environ.setdefault("TQDM_DISABLE", "1")
         use_long_vectors()
         warnings.formatwarning = lambda message, *_, **__: f"warning: {message}\n"
         command: click.Command = resolve_name(COMMANDS[cmd_name])

@@ -83,7 +83,7 @@ def simulate_batch(
     own, rows = identity(scene), list[Row]()
     metadata(scene)  # refuses code that has changed before it runs for long
     how: dict[str, Any] = {"prelude": prelude and _prelude(prelude), "progress": single}
-    for seed in tqdm(seeds, desc=scene.folder, unit="realisation", disable=single):
+    for seed in tqdm(seeds, desc=scene.folder, unit="realisation", disable=single or None):
         run = realise(scene, seed, **how)
         rows.append(own | columns_of(run, scene, seed))
     origin = metadata(scene)

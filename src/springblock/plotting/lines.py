@@ -47,9 +47,9 @@ def lines(rows: Iterable[Row], over: str) -> "DataFrame":
     except ModuleNotFoundError:
         missing = "figures of sweeps need seaborn: pip install 'springblock[study]'"
         raise ModuleNotFoundError(missing) from None
-    scenes = [(scene_of(row), row) for row in rows]
-    known = [(scene, row, _value(scene, row, over)) for scene, row in scenes]
-    scenes = [(scene, row, value) for scene, row, value in known if value is not None]
+    every_scene = [(scene_of(row), row) for row in rows]
+    valued = [(scene, row, _value(scene, row, over)) for scene, row in every_scene]
+    scenes = [(scene, row, value) for scene, row, value in valued if value is not None]
     if not scenes:
         raise ValueError(f"unknown axis {over!r}; choose one of {', '.join([SHARE, *AXES])}")
     placed = [{"place": _place(value), "line": _others(s, over)} for s, _, value in scenes]

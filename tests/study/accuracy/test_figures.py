@@ -9,11 +9,7 @@ import pytest
 
 from precision import production_rows
 from springblock.model.defaults import STEP
-from springblock.study.accuracy.conventions import (
-    ENSEMBLE,
-    PLAIN,
-    SCENES,
-)
+from springblock.study.accuracy.conventions import ENSEMBLE, PLAIN, SCENES
 from springblock.study.results import FIGURES
 
 STEPS = np.array([8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9])
@@ -59,7 +55,7 @@ def production_table():
 
 
 DRAWINGS = {
-    "work_precision": lambda: FIGURES["work_precision"].function()(table(), production_table()),
+    "work_precision": lambda: FIGURES["work_precision"].function()(table(), production_table())
 }
 drawn = cache(lambda name: DRAWINGS[name]())  # for tests that only look at it
 

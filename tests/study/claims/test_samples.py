@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from springblock import compute_prelude
-from springblock.analysis.statistics import Peaks, prominence
+from springblock.analysis.statistics import Peaks
 from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.study.claims.flat import single_events, starts_no_front, strain_left
@@ -91,14 +91,6 @@ def test_a_run_that_has_ended_keeps_its_last_force_in_the_mean():
         for runs in (whole, ended)
     )
     assert other.value == pytest.approx(one.value, rel=1e-3)
-
-
-def test_fluctuations_of_single_runs_cancel_in_their_mean_force(rng):
-    run = paper.record(ACROSS, 0)
-    noise = 0.03 * rng.standard_normal((200, len(run.force)))
-    noisy = [replace(run, force=run.force * (1.0 + each)) for each in noise]
-    found = prominent(Evidence(records={ACROSS: noisy}), ACROSS, (0.0, 1.0)).estimate
-    assert found.value < 0.2 * np.mean([prominence(each.force) for each in noisy])
 
 
 def test_the_mean_detachment_rate_is_that_from_the_first_to_the_last():

@@ -9,7 +9,8 @@ from study.mechanism import chapter
 @pytest.fixture(scope="module")
 def found():
     """Values from tables made up."""
-    return values(chapter.rows(), chapter.damped(), chapter.springs(), chapter.settings())
+    tables = chapter.rows, chapter.damped, chapter.springs, chapter.grooves, chapter.settings
+    return values(*(rows() for rows in tables))
 
 
 def test_changes_are_those_from_one_model_to_the_next_in_percent(found):

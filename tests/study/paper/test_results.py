@@ -10,9 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 
 from springblock import Pattern
-from springblock.analysis.statistics import (
-    prominence_of_mean,
-)
+from springblock.analysis.statistics import prominence_of_mean
 from springblock.io.identity import identity
 from springblock.io.records import Record
 from springblock.model.scene import Scene

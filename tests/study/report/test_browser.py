@@ -34,17 +34,7 @@ def whole(study, tmp_path_factory):
 def test_every_part_of_the_report_is_shown(whole, opened, width):
     page = opened(whole, width)
     names = page.locator("nav a").evaluate_all("links => links.map((a) => a.hash.slice(1))")
-    expected = [
-        "findings",
-        "means",
-        "figures",
-        "claims",
-        "mechanism",
-        "accuracy",
-        "films",
-        "tables",
-    ]
-    assert names == expected
+    assert " ".join(names) == "findings means figures claims mechanism accuracy films tables"
     for name in names:
         page.locator(f"nav a[href='#{name}']").click()
         expect(page.locator(f"#{name} h1")).to_be_in_viewport()

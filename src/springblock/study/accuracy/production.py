@@ -14,7 +14,7 @@ from tqdm import tqdm
 
 from springblock.analysis.correlation import Correlation, fit_tail, side_times
 from springblock.analysis.statistics import mean_interval, standard_error
-from springblock.io.rows import Row
+from springblock.io.rows import Row, limits
 from springblock.io.schemas import N_BLOCKS, column, numbers, texts
 from springblock.model.defaults import STEP
 from springblock.model.numbers import Array
@@ -138,14 +138,10 @@ def keep(pattern: Pattern, run: Realisation, seconds: float) -> Kept:
 def of_mean(values: Array, exact: Array) -> Row:
     """Return a mean over k seeds, (k,), and its bias from that of the same seeds, as columns."""
     differences = values - exact
-    bias, low, high = mean_interval(differences)
-    return {
+    return limits("bias", mean_interval(differences), "ci") | {
         "value": float(values.mean()),
         "deviation": float(values.std(ddof=1)),
-        "bias": float(bias),
         "bias_error": float(standard_error(differences)),
-        "ci_low": float(low),
-        "ci_high": float(high),
     }
 
 
@@ -163,13 +159,10 @@ def of_length(sides: dict[float, Array]) -> dict[float, Row]:
     found = {}
     for step, times in sides.items():
         differences = resampled[step] - resampled[min(sides)]
-        low, high = np.percentile(differences, (2.5, 97.5))
-        found[step] = {
+        bias = alone[step] - alone[min(sides)], *np.percentile(differences, (2.5, 97.5))
+        found[step] = limits("bias", bias, "ci") | {
             "value": float(alone[step]),
             "deviation": float(np.sqrt(len(times)) * resampled[step].std()),
-            "bias": float(alone[step] - alone[min(sides)]),
             "bias_error": float(differences.std()),
-            "ci_low": float(low),
-            "ci_high": float(high),
         }
     return found

@@ -19,7 +19,7 @@ import numpy as np
 import pyarrow as pa
 from tqdm import tqdm
 
-from springblock.io.rows import Row
+from springblock.io.rows import Row, limits
 from springblock.io.schemas import N_BLOCKS, column, numbers, texts
 from springblock.model.defaults import PAPER_STEP
 from springblock.model.numbers import Array
@@ -246,9 +246,7 @@ def rows_of(
             "integrator": integrator,
             "step": step,
             "quantity": quantity,
-            "error": error,
-            "ci_low": error - half,
-            "ci_high": error + half,
+            **limits("error", (error, error - half, error + half), "ci"),
             "realisations": count,
             "cpu_seconds": cost[0],
             "force_evaluations": cost[1],

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import product
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -83,12 +84,11 @@ class Series:
         contact, strength = self.cell(n)
         drop = 1.0 + (strength - 1.0) * (1.0 + groups.residual)
         to_middle = [-side * n // 2 for side in reversed(self.sides)]  # of a pillar
-        quarter = [
-            np.roll(each, to_middle, (0, 1))[: contact.shape[0] // 2, : contact.shape[1] // 2]
-            for each in (contact, drop)
-        ]
+        contact, drop = np.roll(contact, to_middle, (0, 1)), np.roll(drop, to_middle, (0, 1))
+        quarter = np.s_[: contact.shape[0] // 2, : contact.shape[1] // 2]
         layer = self.material.thickness / self.material.spacing
-        return groups.friction(Cell(quarter[0], layer, quarter[1]).excess(*groups.numbers))
+        cell = Cell(contact[quarter], layer, drop[quarter])
+        return groups.friction(cell.excess(*groups.numbers))
 
     def setup(self) -> Setup:
         """Return the setup, with its step rounded to a digit."""
@@ -110,7 +110,8 @@ class Series:
 
     def surface(self, n: int, seed: int) -> Surface:
         """Return periodic cells with pillars or stripes of n blocks."""
-        contact, strength = (np.tile(each, (self.pillars, self.pillars)) for each in self.cell(n))
+        contact, strength = self.cell(n)
+        contact = np.tile(contact, (self.pillars, self.pillars))
         drawn = Surface.draw(contact, seed, self.material, periodic=True)
         if not self.wave:
             return drawn
@@ -187,10 +188,10 @@ def _disorder() -> Iterator[Series]:
     drawn = replace(PLAIN, spacing=2.5e-6, mu_static_std=0.1, mu_dynamic_std=0.05)
     series = partial(Series, "square", predicted=False)
     fast = replace(drawn, spacing=1.25e-6, gamma=Material.gamma, slider_velocity=2.5e-3)
-    sizes, seeds = (3, 4, 6, 8, 10, 15), tuple(range(20))
-    yield series("disorder, independent", fast, widths=sizes, seeds=seeds, step=0.8)
-    slow, sizes = replace(drawn, correlation_length=1e-5), (2, 4, 6, 10, 15)
-    yield series("disorder, correlated", slow, widths=sizes, pillars=2, seeds=(0, 1, 2, 3))
+    own: dict[str, Any] = {"widths": (3, 4, 6, 8, 10, 15), "seeds": tuple(range(20)), "step": 0.8}
+    yield series("disorder, independent", fast, **own)
+    own = {"widths": (2, 4, 6, 10, 15), "seeds": (0, 1, 2, 3), "pillars": 2}
+    yield series("disorder, correlated", replace(drawn, correlation_length=1e-5), **own)
 
 
 SERIES = {

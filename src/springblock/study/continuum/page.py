@@ -137,8 +137,11 @@ def _disordered(rows: Sequence[Row]) -> dict[str, Any]:
         }
         means = {width: mean_interval(each) for width, each in samples.items()}
         seeds = len(_by(own, "seed"))
-        found.append(own[0] | {"means": means, "best": lowest(samples), "seeds": seeds})
-    return {"disorder": found}
+        switched = max(row["switches"] for row in own)
+        kind = {"means": means, "best": lowest(samples), "seeds": seeds, "switched": switched}
+        found.append(own[0] | kind)
+    widths = sorted({width for each in found for width in each["means"]})
+    return {"disorder": found, "widths": widths}
 
 
 def _best_widths() -> dict[str, Any]:

@@ -23,7 +23,11 @@ NAMES = {
 
 
 def values(
-    models: list[Row], strong: list[Row], springs: list[Row], settings: list[Row]
+    models: list[Row],
+    strong: list[Row],
+    springs: list[Row],
+    grooves: list[Row],
+    settings: list[Row],
 ) -> dict[str, Any]:
     """Return what the template names, from the rows of the tables."""
     tables = map(pd.DataFrame, (models, strong, springs, settings))
@@ -43,11 +47,18 @@ def values(
         },
         "minimum": {name: _minimum(friction, name) for name in NAMES},
         "springs": {
-            f"{(Material.thickness / thickness) ** 2:.2g}": {
+            f"{(Material.thickness / rows['thickness'].iloc[0]) ** 2:.2g}": {
                 "minimum": {name: _minimum(rows, name) for name in NAMES},
                 "uneven": rows[rows["n_p"] == SIZE]["stress_variation"].iloc[0],
             }
-            for thickness, rows in other.groupby("thickness")
+            for _, rows in other.groupby("thickness")
+        },
+        "grooves": {
+            row["model"]: [
+                Interval(row[name], row[f"{name}_low"], row[f"{name}_high"])
+                for name in ("static_friction", "prominence")
+            ]
+            for row in grooves
         },
         "damped": {gamma: _of_damping(rows) for gamma, rows in damped.groupby("gamma")},
         "settings": _grouped(plain, "varied", "value")

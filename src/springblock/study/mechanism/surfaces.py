@@ -34,5 +34,6 @@ PARTS: dict[str, list[Scene]] = {
     "mechanism-damped": [_pillars(n_p, gamma=1e7) for n_p in _SIZES],
     "mechanism-overdamped": [_pillars(n_p, gamma=4e7) for n_p in _SIZES],
     "mechanism-soft": [_pillars(n_p, **_springs(0.5)) for n_p in _USUAL],
+    "mechanism-grooves": [Scene(_LEAST, n_p2=8, n_s2=2)],
     "mechanism-stiff": [_pillars(n_p, **_springs(2.0)) for n_p in _USUAL],
 }
