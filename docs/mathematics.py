@@ -16,4 +16,5 @@ def on_page_content(content: str, **_: Any) -> str:
 
 def _mathml(found: re.Match[str]) -> str:
     tex = re.sub(r"\\tag\{(.*?)\}", r"\\qquad (\1)", html.unescape(found[2]))
+    tex = re.sub(r"\\mathbf\s+(\w)", r"\\mathbf{\1}", tex)  # or the letter is not bold
     return convert(tex, display="block" if found[1] == "div" else "inline")
