@@ -1,5 +1,6 @@
 """Values of the page on where the model applies: friction of strips as wide as their grooves."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -10,6 +11,7 @@ from springblock.analysis.statistics import Interval, mean_interval
 from springblock.io.rows import Row, scene_of
 from springblock.model.material import Material
 from springblock.model.scene import Scene
+from springblock.simulation.resolution import DECAY, STIFFNESS
 
 
 class Strips(NamedTuple):
@@ -47,6 +49,7 @@ def values(realisations: Iterable[Row], *_: Iterable[Row]) -> dict[str, Any]:
     by_difference = sorted(strips, key=lambda each: each.difference.mean)
     return {
         "strips": strips,
+        "coarsest": {axis: math.sqrt(ratio) / DECAY for axis, ratio in STIFFNESS.items()},
         "widest": max(m.high - m.mean for each in strips for m in (each.across, each.along)),
         "lowest": min(strips, key=lambda each: each.across.mean),
         "deepest": by_difference[0],
