@@ -44,8 +44,7 @@ def lines(rows: Iterable[Row], over: str) -> "DataFrame":
         import pandas as pd
         import seaborn  # noqa: F401
     except ModuleNotFoundError:
-        missing = "figures of sweeps need seaborn: pip install 'springblock[study]'"
-        raise ModuleNotFoundError(missing) from None
+        raise ModuleNotFoundError("sweeps are drawn by seaborn: pip install seaborn") from None
     scenes = [(scene_of(row), row) for row in rows]
     scenes = [each for each in scenes if _is_axis(over) and over in each[0].values]
     if not scenes:
