@@ -30,8 +30,8 @@ full: setup
 # Pages and pictures in docs, and the findings in README and reports, from the whole study.
 FINDINGS := src/springblock/study/findings/full_study.md
 docs: full
-	cp results/accuracy.md results/applicability.md results/claims.md results/continuum.md results/mechanism.md docs
-	cp results/figures/figure_6.png results/figures/continuum_friction.png docs
+	cp results/accuracy.md results/applicability.md results/claims.md results/continuum.md results/mechanism.md results/precursors.md docs
+	cp results/figures/figure_6.png results/figures/continuum_friction.png results/figures/precursors_lengths.png docs
 	cp results/findings.md $(FINDINGS)
 	sed -e '/^<!-- findings/,/^<!-- end/{/^<!--/!d;}' -e '/^<!-- findings/r $(FINDINGS)' README.md > results/README.md
 	mv results/README.md README.md
@@ -87,7 +87,7 @@ INTERPRETED := test_springs or test_release or test_laws or wherever_it_is \
 coverage: setup-tests
 	$(BIN)/coverage erase
 	$(BIN)/coverage run -m pytest $(PARALLEL) $(addprefix tests/,model analysis simulation solver \
-	    cli claims/test_rule.py claims/test_samples.py validation/test_law_files.py)
+	    cli study/claims/test_rule.py study/claims/test_samples.py validation/test_law_files.py)
 	NUMBA_DISABLE_JIT=1 $(BIN)/coverage run -m pytest -W ignore $(PARALLEL) --dist load \
 	    $(addprefix tests/solver/test_,springs.py release.py laws.py leapfrog.py) \
 	    $(addprefix tests/simulation/test_,fields.py simulation.py) \

@@ -2,7 +2,6 @@
 
 import fcntl
 import os
-from collections.abc import Callable
 
 import numba
 import numpy as np
@@ -16,7 +15,7 @@ from springblock.__main__ import main
 from studies import Study
 
 # The same draws in every run.
-settings.register_profile("springblock", max_examples=40, deadline=None, derandomize=True)
+settings.register_profile("springblock", max_examples=25, deadline=None, derandomize=True)
 settings.load_profile("springblock")
 
 
@@ -40,27 +39,12 @@ def springblock():
 
 
 @pytest.fixture(scope="session")
-def finished(tmp_path_factory) -> Callable[..., Study]:
-    """Run a study once for all processes of a test run; no test may change its results."""
+def study(tmp_path_factory) -> Study:
+    """A tiny study, run once for all processes of a test run; no test may change its results."""
     own = tmp_path_factory.getbasetemp()
-    shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
-
-    def study(name: str, options: tuple[str, ...] = (), targets=(), then=None, **changes) -> Study:
-        folder = shared / name
-        with (shared / f"{name}.lock").open("w") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            if not folder.exists():
-                begun = Study.begun(folder, **changes)
-                begun.run(*options, targets=targets)
-                if then:  # other values of some keys
-                    begun.configure(**then)
-                    begun.run(*options, targets=targets)
-        return Study(folder, options, targets)
-
-    return study
-
-
-@pytest.fixture(scope="session")
-def study(finished) -> Study:
-    """A finished tiny study."""
-    return finished("study")
+    folder = (own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "study"
+    with folder.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not folder.exists():
+            Study.begun(folder).run()
+    return Study(folder)

@@ -14,8 +14,8 @@ from springblock.model.blockmap import BlockMap
 from studies import FEWER, Study
 
 EXAMPLE = "config/examples/islands.yaml"
-#: Names that a shell would take apart, and results that lie deeper.
-MASK, WEAK, RESULTS = "my masks/islands (1), ü.png", "weak mu.npy", "my results/ü (2)"
+#: Names that a shell would take apart or run, and results that lie deeper.
+MASK, WEAK, RESULTS = "my masks/islands (1), ü.png", "weak mu.npy", "my 'results'/ü $(a)"
 ISLANDS = np.indices((12, 12)).sum(axis=0) % 5 > 1
 WEIBULL = {"distribution": ["weibull"], "correlation_length": [3e-5]}
 CORRELATED = {"correlation_length": [2e-5]}

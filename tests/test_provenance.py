@@ -4,14 +4,13 @@ import ast
 import re
 import sys
 from dataclasses import replace
-from itertools import chain
 from pathlib import Path
 
 import pytest
 
 import springblock
 from springblock import provenance
-from springblock.provenance import ANALYSE, COMPILE, MASK, SIMULATE, digest_of_data
+from springblock.provenance import ANALYSE, COMPILE, SIMULATE
 from springblock.study.results import FIGURES, PAGES, TABLES, found
 
 ROOT = Path(springblock.__file__).parent
@@ -86,14 +85,6 @@ def test_a_caption_changes_the_digest_of_its_figure_and_of_nothing_else():
     ) + len(PAGES)
 
 
-CODES = {COMPILE, MASK, SIMULATE, ANALYSE, *(table.code for table in TABLES.values() if table.made)}
-
-
-@pytest.mark.parametrize("part", sorted(set(chain.from_iterable(CODES))))
-def test_what_a_digest_covers_exists(part):
-    assert (ROOT / part.split()[0]).exists()
-
-
 def test_versions_are_compared_by_their_digests():
     version = provenance.code_version(SIMULATE)
     assert version.endswith("+" + provenance.digest(SIMULATE))
@@ -117,19 +108,19 @@ def floors():
     return {name: i for i, row in enumerate(rows) for name in re.findall(r"`(\w+)(?:/|\.py)`", row)}
 
 
-def test_the_map_of_the_package_has_every_folder():
-    found = {path.stem for path in ROOT.iterdir() if path.is_dir() or path.suffix == ".py"}
-    assert floors().keys() == found - {"__init__", "__main__", "__pycache__"}
-
-
-@pytest.mark.parametrize("file", sorted(ROOT.rglob("*/*.py")), ids=str)
-def test_data_moves_one_way(file):
-    """No folder imports from one below it in the map."""
+def test_data_moves_one_way():
+    """No folder imports from one below it in the map, which has all, and no chapter another."""
     places = floors()
-    here = places[file.relative_to(ROOT).parts[0]]
-    for name in imports(file):
-        part = name.split(".")[1]
-        assert part not in places or places[part] <= here, f"{file} imports {name}"
+    found = {path.stem for path in ROOT.iterdir() if path.is_dir() or path.suffix == ".py"}
+    assert places.keys() == found - {"__init__", "__main__", "__pycache__"}
+    chapters = {table.chapter for table in TABLES.values() if table.made}
+    chapters |= {figure.drawn.partition(".")[0] for figure in FIGURES.values()} - {"springblock"}
+    for file in ROOT.rglob("*/*.py"):
+        folder, *rest = file.relative_to(ROOT).parts
+        for _, part, *inner in (name.split(".") for name in imports(file)):
+            assert part not in places or places[part] <= places[folder], f"{file}: {part}"
+            if folder == "study" and rest[0] in chapters:
+                assert part != "study" or inner[0] == rest[0], f"{file}: {inner}"
 
 
 def closure(files):
@@ -153,53 +144,7 @@ def test_the_digest_of_a_table_covers_all_that_computes_it(name):
     files = closure([Path(sys.modules[found(table.made).__module__].__file__)])
     needed = {path.relative_to(ROOT) for path in files if path.parent != ROOT}
     covered = {*table.code, *(() if table.parts else SIMULATE)}
+    assert all((ROOT / part.split()[0]).exists() for part in covered)
     for file in needed:
         folders = {str(parent) for parent in file.parents} | {str(file)}
         assert folders & covered or file == Path("study/__init__.py"), file
-
-
-CHAPTERS = {table.chapter for table in TABLES.values() if table.made}
-CHAPTERS |= {figure.drawn.partition(".")[0] for figure in FIGURES.values()} - {"springblock"}
-
-
-@pytest.mark.parametrize("chapter", sorted(CHAPTERS))
-def test_chapters_know_the_library_and_not_each_other(chapter):
-    for file in (ROOT / "study" / chapter).rglob("*.py"):
-        for name in imports(file):
-            parts = name.split(".")
-            assert parts[1] != "study" or parts[2] == chapter, f"{file} imports {name}"
-
-
-def test_the_library_knows_nothing_of_the_study():
-    for file in ROOT.rglob("*.py"):
-        if file.parent.name != "springblock" and "study" not in file.relative_to(ROOT).parts:
-            assert not any(name.startswith("springblock.study") for name in imports(file)), file
-
-
-def test_the_command_line_computes_nothing():
-    """NumPy counts what a command says at its end, and spaces the values of a range."""
-    for file in sorted((ROOT / "cli").glob("*.py")):
-        used = {
-            node.names[0].name
-            for node in ast.walk(ast.parse(file.read_bytes()))
-            if isinstance(node, ast.Import)
-        }
-        assert "scipy" not in used
-        assert "numpy" not in used or file.stem in {"simulate", "mask", "options"}, file
-
-
-def test_a_job_takes_its_digests_from_the_plan_and_compares_its_sources(monkeypatch):
-    """A comment changes the bytes of a source, and not the digest of its meaning."""
-    usual = provenance.made_by(SIMULATE)
-    monkeypatch.setenv(provenance.PLAN, provenance.planned("0123", [SIMULATE]))
-    assert provenance.made_by(SIMULATE) == usual
-    assert provenance.of_study(SIMULATE) == usual | {"study": "0123"}
-    monkeypatch.setattr(provenance, "_sources", lambda step: "other bytes")
-    with pytest.raises(ValueError, match="the code changed while the study ran"):
-        provenance.made_by(SIMULATE)
-
-
-def test_the_order_of_keys_does_not_change_a_configuration():
-    one, other = {"step": 1e-8, "seeds": 3}, {"seeds": 3, "step": 1e-8}
-    assert digest_of_data(one) == digest_of_data(other)
-    assert digest_of_data(one) != digest_of_data({"step": 1e-8})

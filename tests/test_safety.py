@@ -29,27 +29,18 @@ def test_rules_quote_every_path():
     assert all(each.endswith(":q") for each in placeholders)
 
 
-def test_any_name_can_be_planned(tmp_path):
-    study = Study.begun(tmp_path, results="मेरे 'results' $(a)")
-    flat = study.planned(targets=("aggregate",))
-    assert flat["simulate_batch"] > 0
-
-
-def test_an_unforeseen_error_in_a_configuration_is_one_sentence(tmp_path):
+def test_a_repeated_key_and_an_unforeseen_error_are_one_sentence(tmp_path):
     study = Study.begun(tmp_path)
+    configured = (study / "tiny.yaml").read_text()
+    (study / "tiny.yaml").write_text(configured + "step: 1.0e-8\nstep: 2e-8\n")
+    said = study.run("-n", refused=True)
+    assert re.search(r"tiny.yaml, line \d+: key 'step' is repeated; rename or remove it", said)
+    assert "Traceback" not in said
+    (study / "tiny.yaml").write_text(configured)
     study.edit("study/configuration.py", "def check(", "def check(*_): {}['x']\n\n\ndef unused(")
     said = study.run("-n", refused=True)
     assert "The study cannot be run: " in said
     assert "KeyError('x'); SPRINGBLOCK_TRACEBACK=1 shows where this happened." in said
-    assert "Traceback" not in said
-
-
-def test_a_repeated_group_is_refused_in_one_sentence(tmp_path):
-    study = Study.begun(tmp_path)
-    with (study / "tiny.yaml").open("a") as file:
-        file.write("step: 1.0e-8\nstep: 2e-8\n")
-    said = study.run("--dry-run", refused=True)
-    assert re.search(r"tiny.yaml, line \d+: key 'step' is repeated; rename or remove it", said)
     assert "Traceback" not in said
 
 

@@ -7,12 +7,10 @@ import pytest
 
 from springblock import Material
 from springblock.solver.integrators import INTEGRATORS
-from springblock.study.results import FIGURES
-from studies import PAPER, ROOT, SCHEMA, TINY
+from springblock.study.results import FIGURES, PAGES, TABLES
+from studies import PAPER, ROOT, SCHEMA, TINY, Study
 
 WHOLE = {"configuration": ("config/config.yaml",)}
-FULL = {"configuration": ("config/full.yaml",)}
-SENSITIVE = {"n_p2": [4], "n_s2": [2], "direction": ["x"], "seeds": 2}
 
 #: Those of the study without its optional groups of scenes and without tables of chapters.
 DRAWN = {
@@ -26,6 +24,10 @@ def test_every_figure_is_drawn_in_both_formats(study):
     names = {file.name for file in (study / "results/figures").iterdir()}
     assert names == {f"{name}.{suffix}" for name in DRAWN for suffix in ("pdf", "png")}
     assert {f"figure_{number}" for number in range(1, 10)} <= DRAWN
+
+
+def test_a_finished_study_has_nothing_to_do(study):
+    assert study.planned() == {}
 
 
 def test_files_say_what_their_columns_mean_and_which_code_made_them(study):
@@ -50,36 +52,21 @@ def test_the_configuration_offers_what_the_package_has():
 OWN = {"flat": {"direction": ["x"], "seeds": 2, "snapshot_times": [1e-5]}}
 
 
-def targets(study, *options, **how):
-    """Rules that Snakemake says can be named."""
-    listed = study.run("--list-target-rules", "--quiet", "host", *options, **how)
-    return set(re.findall(r"^(\w+) \(", listed, re.MULTILINE))
-
-
-STUDIES = {
-    "tiny": {},
-    "own": {"configuration": ("own.yaml",)},
-    "paper": WHOLE,
-    "full": FULL,
-}
-
-
-@pytest.mark.parametrize("kind", STUDIES)
-def test_every_stage_can_be_planned_by_its_name(study, tmp_path, kind):
+@pytest.mark.parametrize("file", ["own.yaml", "config/full.yaml"])
+def test_every_stage_can_be_planned_by_its_name(tmp_path, file):
     """Without tricks: a rule whose files are many has another beside it that asks for all."""
-    study = study.copied(tmp_path / "study")
+    study, how = Study.begun(tmp_path), {"configuration": (file,)}
     study.write("own.yaml", {"study": "own", "n_blocks": 12, "scenes": OWN})
-    how = {"configuration": ("tiny.yaml",), **STUDIES[kind]}
-    elsewhere = ("--config", "results=elsewhere")
-    named = targets(study, *elsewhere, **how)
+    listed = study.run("--list-target-rules", "--quiet", "host", **how)
+    named = set(re.findall(r"^(\w+) \(", listed, re.MULTILINE))
     beside = {"prelude": "preludes", "simulate_batch": "simulate", "part": "parts", "film": "films"}
     beside |= {"fields_of_scene": "fields", "compile": "compiled", "mask": "masks"}
     assert {*beside.values()} <= named
-    jobs = study.planned("--forceall", *elsewhere, "--", *named, **how)
-    assert jobs.keys() >= named
-    text = (ROOT / "docs/workflow.md").read_text()
-    drawn = ("figure_", "supplement", "sweep_", "surfaces")
-    assert {name for name in named if not name.startswith(drawn)} <= {*re.findall(r"`(\w+)`", text)}
+    assert study.planned("--forceall", "--", *named, **how).keys() >= named
+    text = (ROOT / "config/README.md").read_text()
+    assert file == "own.yaml" or {*re.findall(r"snakemake -n (\w+)", text)} <= named
+    known = {*re.findall(r"`(\w+)`", text), *FIGURES, *PAGES, *(f"{name}_table" for name in TABLES)}
+    assert {name for name in named if not name.startswith("sweep_")} <= known | {"all"}
 
 
 def test_lengths_of_a_figure_that_no_scene_has_are_refused(study):
@@ -93,29 +80,8 @@ def test_the_linter_finds_nothing(study):
     assert not re.findall(r"^ +\* (.+):$", said, re.MULTILINE)
 
 
-def test_a_finished_study_has_nothing_to_do(study):
-    assert study.planned() == {}
-
-
-@pytest.mark.parametrize("place", ["Snakefile", "workflow/Snakefile"])
-def test_the_study_is_planned_from_either_file(study, place):
-    """The catalogue of workflows, and a module of another workflow, read that in `workflow`."""
+def test_the_study_is_planned_from_the_file_that_the_catalogue_of_workflows_reads(study):
     elsewhere = ("--cores", "1", "--config", "results=elsewhere")
-    usual = study.planned(*elsewhere)
-    jobs = study.planned("-s", place, *elsewhere)
+    usual, jobs = study.planned(*elsewhere), study.planned("-s", "workflow/Snakefile", *elsewhere)
     assert jobs.keys() ^ usual.keys() <= {"all", "study"}
     assert all(jobs[name] == usual[name] for name in jobs.keys() & usual.keys())
-    host = study.folder / f"{place.replace('/', '_')}_host"
-    host.write_text(HOST.format(place=study.folder / place))
-    assert {name.removeprefix("own_") for name in study.planned("-s", host.name, *elsewhere)} == {
-        *jobs
-    }
-
-
-HOST = """\
-module own:
-    snakefile: "{place}"
-    config: config
-
-use rule * from own as own_*
-"""

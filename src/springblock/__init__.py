@@ -9,6 +9,7 @@ from pkgutil import resolve_name
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from springblock.analysis.refine import refine as refine
     from springblock.analysis.runs import Runs as Runs
     from springblock.analysis.runs import ensemble as ensemble
     from springblock.io.records import read as read
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from springblock.model.material import Material as Material
     from springblock.model.pattern import Pattern as Pattern
     from springblock.model.surface import Surface as Surface
+    from springblock.model.texture import Texture as Texture
     from springblock.plotting.film import animate as animate
     from springblock.plotting.still import plot as plot
     from springblock.simulation.fields import Fields as Fields
@@ -25,6 +27,7 @@ if TYPE_CHECKING:
     from springblock.simulation.run import Realisation as Realisation
     from springblock.simulation.setup import Setup as Setup
     from springblock.simulation.simulate import simulate as simulate
+    from springblock.theory.predict import predict as predict
 
     __version__: str
 else:  # mypy would accept any name if it saw `__getattr__`
@@ -38,12 +41,15 @@ else:  # mypy would accept any name if it saw `__getattr__`
         "Setup": "simulation.setup",
         "SimulationError": "simulation.motion",
         "Surface": "model.surface",
+        "Texture": "model.texture",
         "animate": "plotting.film",
         "compute_prelude": "simulation.prelude",
         "draw_friction": "model.asperities",
         "ensemble": "analysis.runs",
         "plot": "plotting.still",
+        "predict": "theory.predict",
         "read": "io.records",
+        "refine": "analysis.refine",
         "simulate": "simulation.simulate",
     }
 

@@ -67,6 +67,13 @@ def test_a_correlation_that_levels_off_has_a_small_amplitude(rng):
     assert Correlation(times(rng, 400, 4, 20, 1.0) + shift).length().amplitude.high < 1.0
 
 
+def test_sides_that_detach_as_a_whole_have_an_infinite_length(rng):
+    whole = np.broadcast_to(SPREAD * rng.standard_normal((5, 2, 2, 1)), (5, 2, 2, 20))
+    found = Correlation(whole).length()
+    assert np.isinf([found.fitted, found.tail]).all()
+    assert found.amplitude.mean == 1.0
+
+
 def test_the_definition_word_by_word(rng):
     t = times(rng, 5, 2, 10, 2.0)
     c = np.zeros(5)

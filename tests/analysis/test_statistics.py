@@ -17,13 +17,13 @@ from springblock.analysis.statistics import (
     events,
     independent_difference,
     interval_of_means,
-    load_peaks,
     mean_interval,
     mean_of_rest,
     number,
     pillar_map,
     pillar_ring,
     prominence,
+    prominence_of_mean,
     standard_error,
     whole_curve,
 )
@@ -150,6 +150,7 @@ def test_the_lesser_peak_is_measured_from_the_valley():
     assert prominence(np.array([0.0, 10.0, 9.6, 9.8, 0.0])) == pytest.approx(0.02)
     assert prominence(np.array([0.0, 10.0, 0.0])) == 0.0
     assert prominence(np.array([0.0, 10.0, 2.0, 5.0, 0.0])) == 0.0  # not under load
+    assert prominence(np.array([0.0, 10.0, 9.6, 10.0, 0.0])) == pytest.approx(0.04)
     three = np.array([0.0, 10.0, 9.2, 9.8, 9.5, 9.6, 0.0])
     assert [prominence(three, rank) for rank in (1, 2, 3)] == pytest.approx([1.0, 0.06, 0.01])
 
@@ -200,22 +201,31 @@ X = np.arange(100.0)
 
 
 @pytest.mark.parametrize(
-    ("curve", "scatter", "peaks"),
+    ("curve", "peaks"),
     [
-        (hill(X, 50, 1.0, 20.0) + hill(X, 30, 0.3, 6.0), 0.001, [50]),  # and a shoulder
-        (hill(X, 40, 1.0) + hill(X, 60, 1.0), 0.01, [40, 60]),
-        (hill(X, 40, 1.0) + hill(X, 70, 0.8), 0.01, [40]),  # a wave of sliding
-        (X + 1.5 * np.sin(X), 0.0, []),  # small waves of loading
-        (1.0 + hill(X, 40, 0.3) + hill(X, 60, 0.2), 0.05, [40, 60]),
-        (1.0 + hill(X, 40, 0.3) + hill(X, 60, 0.2), 0.12, [40]),  # the second within the scatter
-        (two_peaks(lesser=0.901, valley=0.5), 0.0, [1, 3]),  # nine tenths of the largest force
-        (two_peaks(lesser=0.899, valley=0.5), 0.0, [1]),
-        (two_peaks(lesser=0.95, valley=0.9399), 0.0, [1, 3]),  # a hundredth above the valley
-        (two_peaks(lesser=0.95, valley=0.9401), 0.0, [1]),
+        (hill(X, 40, 1.0) + hill(X, 60, 0.95), (40, 60)),
+        (hill(X, 40, 1.0) + hill(X, 70, 0.8), None),  # a wave of sliding
+        (X + 1.5 * np.sin(X), None),  # small waves of loading
+        (two_peaks(lesser=0.901, valley=0.5), (1, 3)),  # nine tenths of the largest force
+        (two_peaks(lesser=0.899, valley=0.5), None),
+        (two_peaks(lesser=0.95, valley=0.9399), (1, 3)),  # a hundredth above the valley
+        (two_peaks(lesser=0.95, valley=0.9401), None),
     ],
 )
-def test_load_peaks_are_found_at_the_maxima_of_the_force(curve, scatter, peaks):
-    assert load_peaks(curve, scatter).tolist() == peaks
+def test_two_load_peaks_are_found_at_the_maxima_of_the_force(curve, peaks):
+    found = both_peaks(curve)
+    assert (found and (found.first, found.second)) == peaks
+
+
+def test_the_prominence_of_a_mean_force_is_of_that_and_not_of_single_runs():
+    """Peaks of runs at other times average out; a run that has ended counts with its last force."""
+    time = np.arange(200.0)
+    forces = [hill(time, 60 + 3 * k, 1.0) + hill(time, 120 - 3 * k, 0.95) for k in range(9)]
+    runs = [SimpleNamespace(force=f, normal_force=1.0, onset=slice(None)) for f in forces]
+    found, mean = prominence_of_mean(runs), np.mean([run.force for run in runs], axis=0)
+    assert float(found.mean) == pytest.approx(prominence(mean))
+    assert found.low <= found.mean <= found.high
+    assert found.mean < 0.95 * np.mean([prominence(run.force) for run in runs])
 
 
 def test_the_bootstrap_takes_any_statistic_of_weights(rng):

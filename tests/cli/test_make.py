@@ -63,6 +63,8 @@ def test_what_friction_depends_on_becomes_a_table_from_batches(springblock, batc
 def test_a_page_whose_sentences_its_tables_contradict_is_not_written(springblock, tmp_path):
     """Friction of the simulation is lowest on pillars of 20 and 6 blocks here."""
     tables = {"mechanism": chapter.rows(), "mechanism_damped": chapter.damped()}
+    tables["mechanism_springs"] = chapter.springs()
+    tables["mechanism_grooves"] = chapter.grooves()
     tables["sensitivities"] = chapter.settings()
     for name, rows in tables.items():
         write(as_table(name, rows), tmp_path / name, {})

@@ -1,7 +1,6 @@
 """springblock plot, animate and show."""
 
 import pytest
-from PIL import Image
 
 from springblock.plotting import film, style
 
@@ -40,15 +39,6 @@ def test_fields_are_mapped_alone(springblock, tmp_path):
     said = springblock("plot", tmp_path / "short.nc", "--output", tmp_path / "a.png", refused=True)
     assert said.endswith("short.nc holds no fields of springblock, or is cut short")
     assert not (tmp_path / "a.png").exists()
-
-
-@pytest.mark.parametrize("suffix", [".gif", ".mp4"])
-def test_a_run_is_animated(springblock, batch, tmp_path, suffix):
-    springblock("animate", batch(0, 1), "--seed", 1, "--output", tmp_path / f"run{suffix}")
-    assert [file.name for file in tmp_path.iterdir()] == [f"run{suffix}"]
-    if suffix == ".gif":
-        with Image.open(tmp_path / "run.gif") as image:
-            assert image.n_frames > 2
 
 
 def test_a_surface_is_shown(springblock, tmp_path):

@@ -61,14 +61,6 @@ def test_a_batch_holds_every_seed_and_says_how_it_was_computed(springblock, tmp_
     assert (configuration["integrator"], configuration["duration"]) == ("rk4", 4e-6)
 
 
-def test_means_of_a_batch_are_printed_with_their_standard_errors(springblock, tmp_path):
-    said = springblock("simulate", *FLAT, "--last-seed", 2, "--output", tmp_path / "a")
-    table = pq.read_table(tmp_path / "a").to_pandas()
-    for name, unit, factor in (("static_friction", "", 1.0), ("t_avg", " µs", 1e6)):
-        values = factor * table[name]
-        assert f"{name} {values.mean():.5g} ± {values.sem():.2g}{unit}" in said
-
-
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
@@ -88,11 +80,6 @@ def test_what_makes_no_sense_is_refused_and_leaves_nothing(springblock, tmp_path
     output = ("--output", tmp_path / "a")
     assert sentence in springblock("simulate", *FLAT, *output, *words, refused=True)
     assert list(tmp_path.iterdir()) == []
-
-
-def test_a_run_has_a_surface(springblock, tmp_path):
-    said = springblock("simulate", *ONE, "--output", tmp_path / "a", refused=True)
-    assert "the surface has no size" in said
 
 
 def test_fields_are_written_beside_the_run(springblock, tmp_path):

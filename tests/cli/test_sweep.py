@@ -48,7 +48,7 @@ def test_its_runs_are_those_of_single_commands(springblock, folder, tmp_path):
     own = ("--slider-velocity", "1e-2", "--direction", "y", "--last-seed", 1)
     springblock("simulate", *SURFACE, *own, "--output", tmp_path / "alone.parquet")
     alone = pq.read_table(tmp_path / "alone.parquet", columns=SUMMARY.names).to_pylist()
-    found = [row for row in table.to_pylist() if row in alone]
+    found = [row for row in table.to_pylist() if repr(row) in map(repr, alone)]  # NaN included
     assert sorted(row["seed"] for row in found) == [0, 1]
     names = {"realisations.parquet", "slider_velocity.png", "direction.png"}
     assert {file.name for file in folder.iterdir()} == names
@@ -83,21 +83,16 @@ def test_what_cannot_be_run_is_refused_in_a_sentence(springblock, folder, others
     assert sentence in swept(springblock, folder, *others, refused=True)
 
 
-@pytest.mark.parametrize(
-    "command",
-    [
-        ("simulate", "--last-seed", "999"),
-        ("sweep", "--seeds", "2", "--jobs", "2", "--gamma", "0:1e3:99"),
-    ],
-)
-def test_an_interrupt_ends_in_one_line_and_leaves_no_file(command, tmp_path):
+def test_an_interrupt_ends_in_one_line_and_leaves_no_file(tmp_path):
     """Sent to all processes of the command, as a terminal does."""
-    words = [*command, "--n-blocks", "60", "--output", str(tmp_path / "runs")]
+    words = ["sweep", "--seeds", "2", "--jobs", "2", "--gamma", "0:1e3:99", "--n-blocks", "24"]
+    words += ["--output", str(tmp_path / "runs")]
     said = tmp_path / "said"
     with said.open("w") as log:
         run = subprocess.Popen(
             [sys.executable, "-m", "springblock", *words],
             stderr=log,
+            env=os.environ | {"TQDM_DISABLE": ""},  # a bar in a file, too
             start_new_session=True,
             preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
         )

@@ -10,15 +10,14 @@ import pytest
 
 from springblock import Surface, read, simulate
 from springblock.io.records import by_scene, read_records
-from springblock.model.scene import Scene, differing
+from springblock.model.scene import Scene
 
 BATCH = ("simulate", "--n-blocks", 6, "--n-p", 2, "--n-s", 1, "--first-seed", 9, "--last-seed", 10)
 TIMES = (1e-6, 1.5e-4)  #: s; before all detachments and amid them
 
 
-@pytest.mark.parametrize("rows", [6, 9])
-def test_runs_and_their_snapshots_are_read_back_as_they_were(springblock, tmp_path, rows):
-    path, duration = tmp_path / "a.parquet", 1.6e-4
+def test_runs_and_their_snapshots_are_read_back_as_they_were(springblock, tmp_path):
+    path, duration, rows = tmp_path / "a.parquet", 1.6e-4, 9
     scene = Scene(6, 2, 1, n_rows=rows, duration=duration, snapshot_times=TIMES)
     asked = ("--duration", duration, "--snapshot-times", f"{TIMES[0]},{TIMES[1]}")
     springblock(*BATCH, "--n-rows", rows, *asked, "--output", path)
@@ -48,14 +47,6 @@ def test_runs_of_several_files_are_in_the_order_of_their_seeds(springblock, tmp_
     assert not any(len(run.snapshots) for run in read_records([late, early]))
     with pytest.raises(ValueError, match="both hold seed 9"):
         read_records([late, early, Path(str(late))])
-
-
-def test_runs_that_end_at_other_times_are_of_another_scene(springblock, tmp_path):
-    whole, other = tmp_path / "whole.parquet", tmp_path / "other.parquet"
-    springblock(*BATCH, "--output", whole)
-    springblock(*BATCH, "--duration", 2e-6, "--output", other)
-    scenes = dict.fromkeys(run.scene for run in read_records([whole, other]))
-    assert differing(scene.values for scene in scenes) == ["duration"]
 
 
 def test_nothing_slow_is_imported_before_it_is_needed():

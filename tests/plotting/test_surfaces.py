@@ -66,15 +66,3 @@ def test_a_block_that_has_not_let_go_in_a_run_has_no_mean_time():
     (image,) = FIGURES["surfaces"].function()({"short": [one, short]}).axes[1].images
     known = np.isfinite(np.ma.filled(image.get_array(), np.nan))
     np.testing.assert_array_equal(known, ISLANDS & (np.arange(9) == 8))
-
-
-def test_a_row_names_the_widths_of_its_levels_and_the_way_of_the_third():
-    titles = [ax.get_title("right") for ax in draw_levels().axes[::2]]
-    second = "$n_p^{(2)}/n_s^{(2)}$ = "
-    third = ", $n_p^{(3)}/n_s^{(3)}$ = "
-    assert {title.split(": ")[0] for title in titles} == {
-        f"{second}8/2",
-        f"{second}8/2{third}18/2, cut along x",
-        f"{second}8/2{third}18/2, cut along y",
-        f"{second}25/8{third}7/2, cut along x",
-    }

@@ -198,7 +198,9 @@ def fields() -> str:
 
 def reasons() -> str:
     """Values of the page on the mechanism."""
-    found = mechanism.values(chapter.rows(), chapter.damped(), chapter.settings())
+    found = mechanism.values(
+        *(getattr(chapter, name)() for name in ("rows", "damped", "springs", "grooves", "settings"))
+    )
     return "\n".join(f"| {name} | {value}" for name, value in found.items()) + "\n"
 
 
@@ -244,7 +246,7 @@ def batch(file: Path, runs: list[Record]) -> Path:
     rows = [
         summary(run)
         | {name: getattr(run, name) for name in ("force", "detachments", "switches")}
-        | {"normal_force": run.normal_force}
+        | {name: getattr(run, name) for name in ("normal_force", "onset_end")}
         | {name: getattr(run, name).ravel() for name in ("t_det", "contact", "snapshots")}
         for run in runs
     ]

@@ -6,14 +6,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-from numba import typeof
-
 from kernels import COMPILING, run_kernels
-from springblock import Material, Surface
 from springblock.solver import compilation
 from springblock.solver.compilation import _digest
-from springblock.solver.integrators import INTEGRATORS
-from springblock.solver.lattice import prepare
 
 
 def test_each_kind_of_processor_compiles_once(tmp_path):
@@ -63,15 +58,6 @@ def test_an_import_changes_no_setting_of_numba():
     subprocess.run([sys.executable, "-c", script], check=True)
 
 
-def test_numba_tells_the_work_arrays_of_all_integrators_apart():
-    """By their names, by which machine code is linked: a step would be that of another one."""
-    names = set()
-    for each in INTEGRATORS.values():
-        how = Surface([[True]], 1.0, 0.6), Material(), (1.0, 0.0), each, 2e-8
-        names.add(typeof(each.kernels.Work.of(*prepare(*how))).name)
-    assert len(names) == len(INTEGRATORS)
-
-
 #: Saves code for one type while another process may do the same for another type.
 OF_ONE_TYPE = """
 import sys
@@ -92,7 +78,7 @@ def test_processes_that_save_code_for_different_types_do_not_mix_it(tmp_path):
     """numba would give both files one name if neither index held the other's when it was read."""
     script = tmp_path / "of_one_type.py"
     script.write_text("import numba\n" + OF_ONE_TYPE)
-    kinds = ("float64", "float32", "int64", "int32", "complex128", "bool")
+    kinds = ("float64", "float32", "complex128")
     ours = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "cache")}
 
     def results() -> list[str]:
@@ -102,12 +88,12 @@ def test_processes_that_save_code_for_different_types_do_not_mix_it(tmp_path):
         ]
         return [job.communicate()[0].decode().strip() for job in jobs]
 
-    alone = ["2.0", "2.0", "2", "2", "(2+0j)", "2"]
+    alone = ["2.0", "2.0", "(2+0j)"]
     assert results() == alone
     assert results() == [f"{value} 1" for value in alone]  # all are found
 
 
-def test_kernels_work_with_public_parts_of_numba_alone(tmp_path):
+def test_kernels_work_without_private_parts_of_numba_and_without_compiling(tmp_path):
     lost = """if True:
         from numba.core import compiler
         private = vars(compiler).pop("Compiler")
@@ -115,7 +101,4 @@ def test_kernels_work_with_public_parts_of_numba_alone(tmp_path):
         compiler.Compiler = private
     """
     assert run_kernels(tmp_path / "cache", f"{lost}\n") == (["0", "0"], [], 0)
-
-
-def test_kernels_work_without_compiling(tmp_path):
     assert run_kernels(tmp_path / "cache", NUMBA_DISABLE_JIT="1") == ([], [], 0)

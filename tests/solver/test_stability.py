@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from springblock import Material
-from springblock.model import defaults
 from springblock.solver.integrators import INTEGRATORS, leapfrog_force_time, limit
 
 MODES = 0.1, 2.0  # angular frequencies; damping makes the first one fast, too
@@ -28,10 +27,6 @@ def rk4_step(omega, h, gamma):
 #: By integrator: the matrix of one step, and omega h at the limit without damping.
 STEP = {"leapfrog": leapfrog_step, "rk4": rk4_step}
 REACH = {"leapfrog": 2.0, "rk4": math.sqrt(8.0)}
-
-
-def test_every_integrator_has_its_name_among_the_choices():
-    assert (*INTEGRATORS,) == defaults.INTEGRATORS
 
 
 @pytest.mark.parametrize("name", INTEGRATORS)

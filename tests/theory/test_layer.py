@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 from springblock import Material
-from springblock.theory.layer import Groups, Peak, Slip, Square, sharp_minimum, stripe
+from springblock.theory.layer import Cell, Groups, Peak, Slip, best_width, sharp_minimum, stripe
 
 RESIDUAL = 1.5  #: mu_d/(mu_s - mu_d) of the paper
 
@@ -76,9 +76,32 @@ def test_the_width_of_lowest_friction_is_stationary_at_six_decay_lengths():
     assert min(beside) == beside[1]  # also with cohesive fronts
 
 
+@pytest.mark.parametrize(("mu_d", "kappa", "width"), [(0.3, 0.5, 10.9), (0.6, 2.0, 6.6)])
+def test_the_width_of_lowest_friction_is_that_of_the_theory(mu_d, kappa, width):
+    residual = mu_d / (1.0 - mu_d)
+    assert best_width(residual, kappa) == pytest.approx(width, abs=0.15)
+    excess = [stripe(a, a, residual, kappa).excess for a in (0.8 * width, width, 1.25 * width)]
+    assert min(excess) == excess[1]
+
+
+def quarter(pillar, gap, thickness, drop=1.0):
+    """Cell of half a pillar and half a gap a side."""
+    inside = np.arange(pillar + gap) < pillar
+    return Cell(np.outer(inside, inside), thickness, drop)
+
+
+def test_a_row_of_a_cell_is_a_stripe():
+    """On a lattice of lambda/16, whose error is of second order."""
+    inside = np.arange(96) < 48
+    cell = Cell(inside[None], 16.0 / 1.5**0.5, 1.0)
+    assert cell.excess(RESIDUAL, 0.9) == pytest.approx(
+        stripe(6.0, 6.0, RESIDUAL, 0.9).excess, abs=2e-3
+    )
+
+
 def test_work_is_stored_or_dissipated_on_a_square():
     """In Delta²/k per area: by the trapezoidal rule, whose error is that of the square of steps."""
-    kappa, square = 0.9, Square(8, 8, 4.0)
+    kappa, square = 0.9, quarter(8, 8, 4.0, drop=np.linspace(0.8, 1.2, 16))
     whole = len(square.contact)
     state, heat = Slip(np.zeros(whole), np.zeros(whole, bool)), 0.0
     forces, stresses = [0.0], [np.zeros(whole)]
@@ -102,5 +125,5 @@ def test_work_is_stored_or_dissipated_on_a_square():
 
 
 def test_friction_of_a_square_is_highest_where_it_is_narrow_and_lowest_at_some_layers():
-    values = [Square(n, n, 2.0).excess(RESIDUAL, 0.94) for n in (2, 6, 20)]
+    values = [quarter(n, n, 2.0).excess(RESIDUAL, 0.94) for n in (2, 6, 20)]
     assert values[1] < values[2] < values[0] < 1.0

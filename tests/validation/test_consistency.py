@@ -10,12 +10,10 @@ doi:10.5194/gmd-8-2829-2015.)
 
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
-import pytest
 from scipy.stats import wilcoxon
 
-from springblock import Material, Pattern, Setup, Surface, compute_prelude, simulate
+from springblock import Pattern, Setup, Surface, compute_prelude, simulate
 
 SCENES = {
     "flat": Pattern.flat(16),
@@ -56,24 +54,6 @@ def changed(found):
 
 def test_this_processor_and_these_packages_give_the_recorded_physics():
     assert changed(ensembles(Setup())) == []
-
-
-@pytest.mark.parametrize(
-    ("setup", "least"), [(Setup(step=4e-8), 1), (Setup(Material(mu_dynamic=0.995 * 0.6)), 5)]
-)
-def test_changed_physics_is_found(setup, least):
-    found = changed(ensembles(setup))
-    assert ("flat", "t_avg") in found
-    assert len(found) >= least
-
-
-def test_rounding_raises_few_false_alarms(rng):
-    """In all runs or in some, by much in a few: avalanches that take another order."""
-    recorded, alarms, tries = pd.read_csv(RECORD, index_col=["scene", "seed"]), 0, 100
-    for share in rng.uniform(size=tries):
-        hit = rng.uniform(size=recorded.shape) < share
-        alarms += bool(changed(recorded * (1.0 + 1e-4 * hit * rng.standard_t(1.5, hit.shape))))
-    assert alarms / tries < 0.01 + 3.0 * np.sqrt(0.01 / tries)
 
 
 if __name__ == "__main__":

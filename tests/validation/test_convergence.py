@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks.reference import System, solve
+from benchmarks.reference import solve
 from specimens import flat
 from springblock import Material, Setup, simulate
 from springblock.solver.integrators import INTEGRATORS
@@ -32,24 +32,6 @@ def runs(request):
     """One run for each of the steps."""
     setups = [Setup(FAST, request.param, h, INTERVAL) for h in STEPS]
     return [simulate(SURFACE, setup, duration=DURATION) for setup in setups]
-
-
-def test_in_the_reference_every_block_detaches(reference):
-    assert np.isfinite(reference.t_det).all()
-    assert np.ptp(reference.t_det) > 40 * max(STEPS)
-
-
-def test_the_reference_knows_how_fast_forces_turn(rng):
-    """The rate of the angle of F_mot, against its difference along a straight path."""
-    system = System(flat(3, seed=0), PAPER, np.zeros(1))
-    u, v = 0.1 * rng.standard_normal((2, 2, 9, 1))
-    motives = [
-        system.internal_force(u + t * v) + system.slider_force(np.array([t]), u + t * v)
-        for t in (-1e-4, 0.0, 1e-4)
-    ]
-    before, after = (np.arctan2(motive[1], motive[0]) for motive in (motives[0], motives[2]))
-    expected = np.remainder(after - before + np.pi, 2.0 * np.pi) - np.pi
-    assert system.turning(motives[1], u, v) == pytest.approx(expected / 2e-4, rel=1e-4)
 
 
 def of_second_order(errors):

@@ -12,7 +12,9 @@ from scipy.integrate import solve_ivp
 
 from specimens import flat, uniform
 from springblock import Material, Pattern, Surface, compute_prelude, simulate
+from springblock.io.identity import identity
 from springblock.model.law import LawFile
+from springblock.model.scene import Scene
 from springblock.simulation.setup import Setup
 
 EXAMPLES = Path(__file__).parents[2] / "config/examples"
@@ -165,28 +167,19 @@ CONSTANTS, STATE = "CONSTANTS = {{{}}}\n" + FRICTION, "STATE = {{{}}}\n" + FRICT
             "def friction(speed):\n    return 1.0 / speed\n",
             r"friction fails at rest \(speed = 0\): ZeroDivision",
         ),
+        (
+            "def friction(speed):\n    return len({1: speed, 'a': 2})\n",
+            "cannot be compiled by numba",
+        ),
     ],
 )
 def test_a_file_that_is_no_law_is_refused_in_one_sentence(text, sentence, tmp_path):
     file = tmp_path / "law.py"
     file.write_text(text)
     with pytest.raises(ValueError, match=sentence) as refused:
-        Setup(Material(law=file))
+        one_block(Material(law=file), 1e-6)
     assert re.match(rf"{re.escape(str(tmp_path))}/law.py|law-[0-9a-f]{{8}}", str(refused.value))
     assert "\n" not in str(refused.value)
-
-
-def test_no_file_and_no_number_are_refused(tmp_path):
-    with pytest.raises(ValueError, match=r"law.py does not exist"):
-        LawFile.read(tmp_path / "law.py")
-    with pytest.raises(ValueError, match="floor must be a finite number, not nan"):
-        LawFile.read(EXPONENTIAL, floor=math.nan)
-
-
-def test_what_numba_cannot_compile_is_refused(tmp_path):
-    (tmp_path / "law.py").write_text("def friction(speed):\n    return len({1: speed, 'a': 2})\n")
-    with pytest.raises(ValueError, match=r"law\.py cannot be compiled by numba: .+"):
-        one_block(Material(law=tmp_path / "law.py"), 1e-6)
 
 
 @pytest.mark.parametrize(
@@ -231,6 +224,13 @@ def test_what_turns_negative_or_holds_forever_is_refused(tmp_path):
         simulate(surface, Setup(Material(law=tmp_path / "falling.py", **fast)))
     with pytest.raises(ValueError, match="integrator must be leapfrog with the law exponential"):
         Setup(Material(law=EXPONENTIAL), integrator="rk4")
+    (tmp_path / "taken.py").write_text(CONSTANTS.format("'seed': (1.0, '')"))
+    with pytest.raises(ValueError, match="'seed' is a column of tables; rename it"):
+        identity(Scene(4, law=tmp_path / "taken.py"))
+    with pytest.raises(ValueError, match=r"gone.py does not exist"):
+        LawFile.read(tmp_path / "gone.py")
+    with pytest.raises(ValueError, match="floor must be a finite number, not nan"):
+        LawFile.read(EXPONENTIAL, floor=math.nan)
     with pytest.raises(ValueError, match=r"unknown constant 'd_1'; choose from d_0, floor"):
         Material(law=EXPONENTIAL).vary({"d_1": 1.0})
 
@@ -250,14 +250,6 @@ def test_tables_and_other_processes_keep_the_law_with_its_constants():
         Setup(Material(law=law.described))
 
 
-@pytest.mark.parametrize("name", ["seed", "runs"])
-def test_a_constant_with_the_name_of_a_column_is_refused(tmp_path, springblock, name):
-    file = tmp_path / "law.py"
-    file.write_text(f"CONSTANTS = {{{name!r}: (1.0, '')}}\n{FRICTION}")
-    words = ("simulate", "--n-blocks", 4, "--law", file, "--output", tmp_path / "a.parquet")
-    assert f"{name!r} is a column of tables; rename it" in springblock(*words, refused=True)
-
-
 def test_a_law_is_another_one_when_a_file_that_it_lists_changes(tmp_path):
     file, data = tmp_path / "law.py", tmp_path / "mu.txt"
     file.write_text(
@@ -274,17 +266,3 @@ def test_a_law_is_another_one_when_a_file_that_it_lists_changes(tmp_path):
     file.write_text("INPUTS = ['mu.txt']\n" + FRICTION)
     with pytest.raises(ValueError, match=r"law.py: INPUTS must be a list of files: .*mu.txt"):
         LawFile.read(file)
-
-
-def test_a_law_may_be_compiled_already_and_its_numbers_and_units_be_of_any_kind(tmp_path):
-    """Numbers of NumPy, the micro sign and the Greek letter, and functions for numba."""
-    head = "import numpy as np\nCONSTANTS = {'\u00b5_0': (np.float32(0.5), '\u03bcm')}\n"
-    body = "def friction(\u00b5_0, mu_dynamic):\n    return mu_dynamic + \u00b5_0\n"
-    plain, compiled = tmp_path / "plain.py", tmp_path / "compiled.py"
-    plain.write_text(head + body, encoding="utf-8")
-    compiled.write_text(f"{head}from numba import njit\n@njit\n{body}", encoding="utf-8")
-    laws = [LawFile.read(file) for file in (plain, compiled)]
-    assert [law.units for law in laws] == 2 * [{"\u03bc_0": "\u00b5m"}]
-    assert laws[0].vary({"\u00b5_0": 0.25}).constants == {"\u03bc_0": 0.25}
-    runs = [one_block(replace(PAPER, law=law), 2e-5, 2e-8) for law in laws]
-    np.testing.assert_array_equal(runs[0].force, runs[1].force)

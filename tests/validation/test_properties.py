@@ -72,11 +72,12 @@ def cases(draw, periodic=None) -> Case:
         gamma=rate * draw(st.sampled_from([0.0, 1e-3, 0.1, 1.0])),
         **{name: 0.3 * scales[UNITS[name]] for name in [LAWS[law]] if name},
     )
-    integrator = draw(st.sampled_from(list(INTEGRATORS)))
+    compiled = INTEGRATORS if law == "coulomb" or not periodic else ["leapfrog"]  # for other tests
+    integrator = draw(st.sampled_from(list(compiled)))
     step = draw(st.floats(0.02, 0.2)) * limit(integrator, material)
     material = replace(material, slider_velocity=slip / (LOADING * step))
     surface = Surface(contact, *draw_friction(shape, seed, material), periodic=periodic)
-    setup = Setup(material, integrator, step, sample_interval=10 * step)
+    setup = Setup(material, integrator, step, sample_interval=step)
     return Case(surface, setup, draw(st.floats(0.0, 360.0)))
 
 
@@ -101,7 +102,7 @@ def test_a_periodic_surface_has_no_edges(case, shift):
     def roll(field):
         return np.roll(field, shift, axis=(0, 1))
 
-    watched = {"snapshot_times": [25 * case.setup.sample_interval]}
+    watched = {"snapshot_times": [250 * case.setup.sample_interval]}
     run = case.run(**watched)
     shifted = case._replace(surface=moved(case.surface, roll)).run(**watched)
     assert_moved(run, shifted, roll)
@@ -140,7 +141,7 @@ def test_no_bit_depends_on_prelude_or_snapshots(case, sample):
     surface, setup = case.surface, case.setup
     how = setup, case.direction, surface.periodic
     prelude = compute_prelude(surface.contact, *how, mu_static=surface.mu_static)
-    watched = {"snapshot_times": [sample * setup.sample_interval]}
+    watched = {"snapshot_times": [10 * sample * setup.sample_interval]}
     runs = [case.run(**options) for options in ({}, watched, watched | {"prelude": prelude})]
     for run in runs[1:]:
         for name in ("force", "t_det", "switches", "displacement", "velocity"):

@@ -1,7 +1,5 @@
 """What must hold of surfaces whatever the numbers: symmetries, shapes and edges."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -10,12 +8,7 @@ from springblock import Material, Setup, Surface, draw_friction, simulate
 PAPER = Material()
 #: Loads a hundred times faster than the paper's: in 1500 steps all blocks detach.
 FAST = Material(slider_velocity=5e-2)
-LAWS = {
-    "slip_weakening": {"slip_distance": 4e-7},
-    "velocity_weakening": {"speed_scale": 0.1},
-}
-#: Strained far beyond the range of the series.
-SOFT = replace(FAST, youngs_modulus=2e5)
+LAWS = {"slip_weakening": {"slip_distance": 4e-7}, "velocity_weakening": {"speed_scale": 0.1}}
 
 
 def oblong(shape, share=1.0, seed=0, periodic=False):
@@ -39,20 +32,6 @@ def assert_moved(run, other, move, signs=(1, 1)):
             np.testing.assert_array_equal(found, sign * move(one))
     np.testing.assert_array_equal(other.switches, run.switches)
     np.testing.assert_allclose(other.force, run.force, rtol=0, atol=1e-12 * run.force.max())
-
-
-def test_no_bit_depends_on_the_edges_where_springs_leave_their_series(integrator):
-    """On a periodic surface whose springs are strained by more than 3 %."""
-    surface = oblong((5, 8), periodic=True)
-    how = {"setup": Setup(SOFT, integrator), "direction": 20.0, "duration": 1e-4}
-
-    def roll(field):
-        return np.roll(field, (1, 0), axis=(0, 1))
-
-    run = simulate(surface, **how)
-    assert np.isfinite(run.t_det).sum() > 0.9 * surface.contact.sum()
-    assert np.abs(np.diff(run.displacement)).max() > 0.03 * PAPER.spacing
-    assert_moved(run, simulate(moved(surface, roll), **how), roll)
 
 
 @pytest.mark.parametrize("periodic", [False, True])

@@ -104,7 +104,10 @@ def lagged_products(values: Array) -> Array:
 
 
 class Length(NamedTuple):
-    """Correlation length in blocks; 0.1 means no correlation."""
+    """Correlation length in blocks.
+
+    0.1 means no correlation, and infinity that all blocks of a side detach together, c(r) = 1.
+    """
 
     fitted: Interval  #: l_c of exp(-r/l_c), by weighted least squares
     tail: Interval  #: l of A exp(-r/l) with A free; NaN for fewer than three r
@@ -172,6 +175,9 @@ class Correlation:
         """
         last = last or self.last
         span = slice(1, last + 1)
+        if np.allclose(self.mean[span], 1.0, rtol=0.0, atol=1e-9):
+            endless = Interval(*np.full(3, np.inf))
+            return Length(endless, endless, Interval(*np.ones(3)), last)
         error = self.resampled[:, span].std(axis=0)
 
         def estimates(weights: Array) -> Array:

@@ -12,6 +12,7 @@ from springblock.model.asperities import DRAWN
 from springblock.model.direction import degrees
 from springblock.model.material import LAWS
 from springblock.model.scene import Scene, differing
+from springblock.simulation.resolution import lattice
 
 #: Observables of a realisation, in the order of the tables.
 OBSERVABLES = ("static_friction", "dynamic_friction", "t_max", "t_avg", "t_first")
@@ -111,6 +112,13 @@ def mean(ensemble: Ensemble, observable: str) -> Interval:
     """Mean over seeds with its 95 % interval; its limits are NaN for a single seed."""
     with np.errstate(invalid="ignore"):
         return mean_interval(_known(ensemble.values(observable)))
+
+
+def doubts(members: Iterable[Ensemble]) -> list[str]:
+    """Return warnings that friction of patterned surfaces depends on the lattice, each once."""
+    scenes = (scene_of(row) for each in members for row in each.rows)
+    told = (lattice(scene.material) for scene in scenes if scene.level)
+    return [*dict.fromkeys(filter(None, told))]
 
 
 def constants(members: Sequence[Ensemble]) -> dict[str, object]:

@@ -55,9 +55,16 @@ def changes_from_first(members: Sequence[Ensemble], of: Sequence[str]) -> list[R
 
 
 def in_words(rows: Sequence[Row]) -> tuple[list[str], list[list[str]]]:
-    """Return the headings of rows, with units, and their cells; times are in µs."""
-    head = [_heading(name, value) for name, value in rows[0].items()]
-    return head, [[_cell(name, value) for name, value in row.items()] for row in rows]
+    """Return the headings of rows, with units, and their cells; times are in µs.
+
+    Columns without any value are left out.
+    """
+    columns = {
+        _heading(name, value): [_cell(name, row[name]) for row in rows]
+        for name, value in rows[0].items()
+    }
+    filled = {head: cells for head, cells in columns.items() if any(cells)}
+    return list(filled), [list(row) for row in zip(*filled.values(), strict=True)]
 
 
 def _heading(name: str, value: Any) -> str:
@@ -68,6 +75,8 @@ def _heading(name: str, value: Any) -> str:
 def _cell(name: str, value: Any) -> str:
     if isinstance(value, Interval):
         return number(value, factor=1e6 if _is_time(name, value) else 1.0)
+    if name == "direction" and value not in ("x", "y"):
+        return f"{value}°"
     none = value is None or (name in _NONE_AT_ZERO and not value)
     return "" if none else str(value)
 

@@ -268,18 +268,18 @@ def pillar_ring(size: int, depth: int) -> dict[str, NDArray[np.bool_]]:
     }
 
 
-def load_peaks(curve: Array, scatter: ArrayLike) -> NDArray[np.intp]:
-    """Return the indices of the load peaks of a force curve, (n,). Section 3.3.
+def _peaks(curve: Array) -> tuple[NDArray[np.intp], Array]:
+    """Return the indices of all peaks of at least `_LOAD_PEAK` of the largest force, prominences.
 
-    The prominence of a peak must be at least two standard errors of the mean, `scatter`, and
-    `PROMINENT` of the largest force, which excludes the waves of loading; its force must be at
-    least `_LOAD_PEAK` of the largest force, which excludes those of sliding on flat surfaces (on
-    others a run ends at the first of these).
+    Of several largest ones that are equal to the bit, the first counts as the highest.
     """
-    from scipy.signal import find_peaks  # slow to import, and few figures need it
+    from scipy.signal import find_peaks, peak_prominences  # slow to import
 
-    needed = np.maximum(2.0 * np.broadcast_to(scatter, curve.shape), PROMINENT * curve.max())
-    return find_peaks(curve, prominence=needed, height=_LOAD_PEAK * curve.max())[0]
+    highest = curve.max()
+    peaks, _ = find_peaks(curve, height=_LOAD_PEAK * highest)
+    largest = peaks[curve[peaks] == highest]
+    after = np.searchsorted(largest[:-1], np.arange(len(curve)))
+    return peaks, peak_prominences(curve - np.spacing(highest) * after, peaks)[0]
 
 
 def prominence(curve: Array, rank: int = 2) -> float:
@@ -288,12 +288,32 @@ def prominence(curve: Array, rank: int = 2) -> float:
     This is the drop of the force between two load peaks, from the lower of them; 0 for a single
     peak. `rank` selects another peak, in descending order of prominence.
     """
-    from scipy.signal import find_peaks  # slow to import, and few figures need it
+    found = np.sort(_peaks(curve)[1])
+    return float(found[-rank]) / float(curve.max()) if len(found) >= rank else 0.0
 
-    highest = float(curve.max())
-    _, found = find_peaks(curve, prominence=0.0, height=_LOAD_PEAK * highest)
-    prominences = np.sort(found["prominences"])
-    return float(prominences[-rank]) / highest if len(prominences) >= rank else 0.0
+
+def mean_onsets(runs: Sequence[Run]) -> Array:
+    """Return friction of runs up to the ends of their onsets, over the normal force, (k, n).
+
+    A run whose onset has ended counts with its last force, which lies below its peaks.
+    """
+    onsets = [friction(run)[run.onset] for run in runs]
+    longest = max(map(len, onsets))
+    return np.stack([np.pad(each, (0, longest - len(each)), mode="edge") for each in onsets])
+
+
+def prominence_of_mean(runs: Sequence[Run], rank: int = 2) -> Interval:
+    """Return the prominence of a load peak of the mean force of runs, with its 95 % BCa interval.
+
+    Fluctuations make the prominence of resamples larger: the interval includes the value.
+    """
+    forces = mean_onsets(runs)
+
+    def of_mean(weights: Array) -> Array:
+        return np.array([prominence(curve, rank) for curve in weights @ forces])
+
+    value, low, high = bootstrap_interval(of_mean, len(runs))
+    return Interval(value, np.minimum(low, value), np.maximum(high, value))
 
 
 class Peaks(NamedTuple):
@@ -306,13 +326,11 @@ class Peaks(NamedTuple):
 
 def both_peaks(curve: Array) -> Peaks | None:
     """Find the two most prominent load peaks of a force curve, (n,); None with fewer than two."""
-    from scipy.signal import peak_prominences  # slow to import, and few figures need it
-
-    peaks = load_peaks(curve, 0.0)
-    if len(peaks) < 2:
+    peaks, prominences = _peaks(curve)
+    order = np.argsort(prominences)[-2:]
+    if len(order) < 2 or prominences[order[0]] < PROMINENT * curve.max():
         return None
-    prominences, *_ = peak_prominences(curve, peaks)
-    first, second = sorted(map(int, peaks[np.argsort(prominences)[-2:]]))
+    first, second = sorted(map(int, peaks[order]))
     return Peaks(first, first + int(np.argmin(curve[first:second])), second)
 
 

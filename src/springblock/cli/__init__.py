@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import traceback
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -21,6 +22,8 @@ COMMANDS = {
     "prelude": "springblock.cli.simulate:prelude",
     "simulate": "springblock.cli.simulate:simulate_batch",
     "sweep": "springblock.cli.sweep:sweep",
+    "refine": "springblock.cli.refine:refine_lattice",
+    "predict": "springblock.cli.predict:predict",
     "plot": "springblock.cli.pictures:plot",
     "animate": "springblock.cli.pictures:animate",
     "show": "springblock.cli.pictures:show",
@@ -106,7 +109,10 @@ class _LazyGroup(click.Group):
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # idle threads would spin
         os.environ["MPLBACKEND"] = "agg"  # that of a notebook's kernel may be unknown here
         os.environ.pop("NUMBA_DISABLE_JIT", None)  # kernels have parts that are only compiled
+        if not sys.stderr.isatty():  # a bar is no log
+            os.environ.setdefault("TQDM_DISABLE", "1")
         use_long_vectors()
+        warnings.formatwarning = lambda message, *_, **__: f"warning: {message}\n"
         command: click.Command = resolve_name(COMMANDS[cmd_name])
         return command
 

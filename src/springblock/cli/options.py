@@ -1,7 +1,7 @@
 """Options and error handling shared by several commands."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import Field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import Field, fields
 from functools import partial, wraps
 from itertools import chain
 from pathlib import Path
@@ -11,6 +11,7 @@ import click
 import numpy as np
 
 from springblock.files import check_output
+from springblock.model.material import Material
 from springblock.model.scene import FIELDS, Scene, expand, scene_of
 
 
@@ -104,13 +105,14 @@ def _fields_as_options(
     type_of: Callable[[Field[Any]], Type],
     made: Callable[[dict[str, Any]], Any],
     command: Callable[..., Any],
+    among: Mapping[str, Field[Any]] = FIELDS,
 ) -> Callable[..., Any]:
     """Add an option for each field of a scene; the command receives under `name` what is made."""
     number = type_of(FIELDS["gamma"])
 
     @wraps(command)
     def called(constants: dict[str, str], **options: Any) -> Any:
-        fields = {field: options.pop(field) for field in FIELDS}
+        fields = {field: options.pop(field) for field in among}
         given = {field: value for field, value in fields.items() if value is not None}
         own = {each: number.convert(text, None, None) for each, text in constants.items()}
         return command(**{name: made(given | own)}, **options)
@@ -122,7 +124,7 @@ def _fields_as_options(
         callback=lambda *given: pairs(given[-1]),
         help="Constant of a law from a file: NAME=VALUE. Can be repeated.",
     )
-    return with_options([*(_option(each, type_of) for each in FIELDS.values()), of_law], called)
+    return with_options([*(_option(each, type_of) for each in among.values()), of_law], called)
 
 
 def _option(each: Field[Any], type_of: Callable[[Field[Any]], Type]) -> Any:
@@ -142,6 +144,16 @@ def _combined(given: dict[str, Any]) -> list[Scene]:
 scene_options = partial(_fields_as_options, "scene", _type_of, scene_of)
 #: Add the same options with several values each, of which it receives all combinations as `scenes`.
 scenes_options = partial(_fields_as_options, "scenes", _types_of, _combined)
+
+
+#: Add the options of a material, which the command receives as `material`.
+material_options = partial(
+    _fields_as_options,
+    "material",
+    _type_of,
+    lambda given: Material(**({"law": "slip_weakening", "healing": "none"} | given)),
+    among={each.name: each for each in fields(Material)},
+)
 
 
 def with_options(

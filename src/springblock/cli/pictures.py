@@ -45,7 +45,7 @@ def _fields(files: tuple[Path, ...], options: object) -> Figure:
 @click.argument("files", type=INPUT, nargs=-1, required=True)
 @_SEED
 @click.option(
-    "--over", help="Parameter against which all runs are drawn: slider_velocity, n_p, ..."
+    "--over", help="Parameter against which all runs are drawn: contact_fraction, n_p, gamma, ..."
 )
 @click.option(
     "--of",

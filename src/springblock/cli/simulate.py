@@ -9,7 +9,6 @@ import click
 import numpy as np
 import pyarrow as pa
 from tqdm import tqdm
-from tqdm.contrib.logging import logging_redirect_tqdm
 
 from springblock.cli.options import INPUT, Output, defaulted, scene_options
 from springblock.files import MENDING, whole_file
@@ -84,18 +83,17 @@ def simulate_batch(
     own, rows = identity(scene), list[Row]()
     metadata(scene)  # refuses code that has changed before it runs for long
     how: dict[str, Any] = {"prelude": prelude and _prelude(prelude), "progress": single}
-    counted = tqdm(seeds, desc=scene.folder, unit="realisation", disable=single)
-    with logging_redirect_tqdm(), counted as bar:
-        for seed in bar:
-            run = realise(scene, seed, **how)
-            rows.append(own | columns_of(run, scene, seed))
+    for seed in tqdm(seeds, desc=scene.folder, unit="realisation", disable=single or None):
+        run = realise(scene, seed, **how)
+        rows.append(own | columns_of(run, scene, seed))
     origin = metadata(scene)
     if field_file is not None:
         source = {"source": f"springblock {origin['code_version']}", "seed": str(first_seed)}
         about = source | {"scene": str(scene), "identity": origin["configuration"]}
         _write_fields(run.fields, field_file, about | setup_of(scene).constants)
     write(batch_table(rows), output, origin)
-    click.echo(_in_words(rows))
+    angle = "" if scene.direction in ("x", "y") else f", sliding at {scene.direction}°"
+    click.echo(_in_words(rows) + angle)
 
 
 def _prelude(file: Path) -> Prelude:

@@ -9,7 +9,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from springblock.analysis.comparison import differences as row_differences
-from springblock.analysis.ensembles import OBSERVABLES, changes, ensembles
+from springblock.analysis.ensembles import OBSERVABLES, changes, doubts, ensembles
 from springblock.analysis.means import changes_from_first, differences, in_words, means
 from springblock.analysis.statistics import Interval
 from springblock.cli.options import INPUT, Output, defaulted, print_columns
@@ -64,6 +64,8 @@ def table(
     seeds, without correction for the number of ensembles.
     """
     members = ensembles(_rows(paths), by)
+    for doubt in doubts(members):
+        click.echo(f"warning: {doubt}", err=True)
     rows = changes_from_first(members, of) if of_ends else means(members, of, by)
     if of_ends and not rows:
         raise ValueError("--changes: no parameter has two values")

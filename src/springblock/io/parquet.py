@@ -1,5 +1,6 @@
 """Writing and reading of tables as Parquet files; tables of different studies are not mixed."""
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 from springblock.files import MENDING, whole_file
 from springblock.io.identity import refuse_misplaced
 from springblock.io.rows import scene_of
-from springblock.io.schemas import SCENE
+from springblock.io.schemas import BATCH, SCENE
 from springblock.provenance import study
 
 _NONE = pa.schema([])
@@ -86,12 +87,22 @@ def load(
         if not missing:
             if columns is not None:
                 columns = [*columns, *(name for name in optional if name in present)]
-            return file.read(columns, use_threads=False)  # its threads may abort a process on exit
+            # its threads may abort a process on exit
+            return _with_nan(file.read(columns, use_threads=False))
     except (pa.ArrowException, OSError) as error:
         if isinstance(error, FileNotFoundError):
             raise
         raise ValueError(f"{path} is damaged, or not a table (Parquet); {MENDING}") from None
     raise ValueError(f"{path} lacks the column {missing[0]!r}; it holds {present}")
+
+
+def _with_nan(table: pa.Table) -> pa.Table:
+    """Return a table whose observables are NaN where pandas has written null instead."""
+    for name in ({*BATCH.names} - {*SCENE.names}) & {*table.column_names}:
+        place, values = table.column_names.index(name), table[name]
+        if values.null_count and pa.types.is_floating(values.type):
+            table = table.set_column(place, table.field(place), values.fill_null(math.nan))
+    return table
 
 
 def origin_of(table: pa.Table) -> dict[str, str]:

@@ -17,6 +17,7 @@ from springblock.model.scene import Scene
 from springblock.simulation.run import Run
 
 T = TypeVar("T")
+_NUMBERS = ("seed", "normal_force", "onset_end", "dynamic_friction")
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -80,9 +81,8 @@ def _record(row: pa.Table) -> Record:
         fields |= {"snapshot_times": interval * samples, "snapshots": stored}
     return Record(
         scene=scene,
-        seed=row["seed"][0].as_py(),
         time=interval * np.arange(len(fields["force"]), dtype=float),
-        normal_force=row["normal_force"][0].as_py(),
+        **{name: row[name][0].as_py() for name in _NUMBERS},
         **fields,
     )
 

@@ -71,12 +71,12 @@ SUMMARY = pa.schema(
         column("seed", pa.int64(), "1", "seed of the friction coefficients"),
         *numbers(
             "1",
-            static_friction="largest friction force over the normal force",
-            dynamic_friction="mean friction force over the normal force, from the first minimum "
-            "after the peak to the end of the run; NaN if the force does not rise from a minimum "
-            "by a tenth of its drop",
+            contact_fraction="share of the blocks in contact",
+            static_friction="largest friction force of the onset over the normal force",
+            dynamic_friction="mean friction force over the normal force from 1.5 times the largest "
+            "t_det on; NaN unless this lasts for one reloading",
         ),
-        column("t_max", pa.float64(), "s", "time of the force peak"),
+        column("t_max", pa.float64(), "s", "time of the largest force of the onset"),
         column("t_avg", pa.float64(), "s", "mean time of first detachment of blocks in contact"),
         column("t_first", pa.float64(), "s", "time of the first detachment"),
         column("energy_error", pa.float64(), "1", "residual of the energy balance over the work"),
@@ -106,7 +106,7 @@ CORRELATION = pa.schema(
     ]
 )
 
-#: One row per scene and side; a length of 0.1 means no correlation.
+#: One row per scene and side; a length of 0.1 means no correlation, infinity c(r) = 1.
 CORRELATION_LENGTH = pa.schema(
     [
         *_SIDE,
@@ -142,6 +142,7 @@ BATCH = pa.schema(
             t_det="time of first detachment of each block, row by row from y = 0; NaN without one",
         ),
         column("normal_force", pa.float64(), "N", "normal force P l² N_x N_y"),
+        column("onset_end", pa.float64(), "s", "end of the onset; NaN if it has not ended"),
         *lists(pa.bool_(), "1", contact="whether each block is in contact, row by row from y = 0"),
     ]
 )

@@ -1,4 +1,4 @@
-"""Laws of friction read from files: see `docs/howto.md`, "A law of your own"."""
+"""Laws of friction read from files, see `docs/law.md`."""
 
 import hashlib
 import inspect

@@ -21,6 +21,7 @@ from springblock.model.law import LawFile
 from springblock.model.material import LAWS, Material, number, word
 from springblock.model.pattern import Pattern
 from springblock.model.surface import as_coefficients
+from springblock.model.texture import ARRANGEMENTS, KINDS, Texture
 
 LENGTHS = ("n_p", "n_s", "n_p2", "n_s2", "n_p3", "n_s3")  #: lengths of a scene, two per level
 MAPS = ("mask", "mu_static_field", "mu_dynamic_field")  #: fields read from files
@@ -59,8 +60,8 @@ class Geometry:
     """Surface and sliding direction; a length of 0 means no such level.
 
     Grooves of level 2 run along x, from edge to edge of a surface without pillars; grooves of level
-    3 run along `along_3`, by default y. A mask replaces pattern and N, and coefficients from files
-    replace those that are drawn.
+    3 run along `along_3`, by default y. A texture or mask replaces pattern and N; coefficients from
+    files replace those that are drawn.
     """
 
     n_blocks: int = _blocks("side N of the surface along x; that of the mask, if there is one")
@@ -74,6 +75,11 @@ class Geometry:
     along_3: str = word("", "direction of the grooves of level 3, by default y", ("", "x", "y"))
     n_rows: int = _blocks("side of the surface along y; by default N")
     edges: str = word("free", "edges of the surface: free or periodic", ("free", "periodic"))
+    texture: str = word("", "periodic texture, from lengths in m; '' without one", ("", *KINDS))
+    feature: float = number(0.0, "m", "diameter of a disc or hole, width of others", True)
+    pitch: float = number(0.0, "m", "distance between centres of features", True)
+    arrangement: str = word("square", "arrangement of the features", ARRANGEMENTS)
+    width: float = number(0.0, "m", "side of a textured surface, to the nearest period", True)
     mask: BlockMap | None = _map("contact mask", "mask")  # noqa: RUF009 - fields
     mu_static_field: BlockMap | None = _map("static coefficients", "coefficients")  # noqa: RUF009
     mu_dynamic_field: BlockMap | None = _map("dynamic coefficients", "coefficients")  # noqa: RUF009
@@ -84,6 +90,7 @@ class Geometry:
             if isinstance(given := getattr(self, name), str):  # from a table
                 self._set(**{name: BlockMap(given) if given else None})
         self._check_levels()
+        self._check_texture()
         self._check_maps()
 
     def _set(self, **values: Any) -> None:
@@ -91,11 +98,14 @@ class Geometry:
             object.__setattr__(self, name, value)
 
     def _check_levels(self) -> None:
-        if self.mask and (own := [*self.lengths, *(["along_3"] if self.along_3 else [])]):
-            raise ValueError(
-                f"mask cannot be combined with {', '.join(own)}, since it defines all blocks in "
-                "contact; leave out one of them"
-            )
+        own = [*self.lengths, *(["along_3"] if self.along_3 else [])]
+        own += ["texture"] if self.texture and self.mask else []
+        for name in ("mask", "texture"):
+            if getattr(self, name) and (others := [each for each in own if each != name]):
+                raise ValueError(
+                    f"{name} cannot be combined with {', '.join(others)}, since it defines all "
+                    "blocks in contact; leave out one of them"
+                )
         for size, gap in zip(LENGTHS[::2], LENGTHS[1::2], strict=True):
             for one, other in ((size, gap), (gap, size)):
                 if getattr(self, one) and not getattr(self, other):
@@ -106,15 +116,26 @@ class Geometry:
             raise ValueError(f"along_3 must be left out without n_p3, not {self.along_3!r}")
         self._set(along_3=self.along_3 or ("y" if self.n_p3 else ""))
 
+    def _check_texture(self) -> None:
+        """Give a textured surface the blocks of whole periods."""
+        given = [name for name in ("feature", "pitch", "width") if getattr(self, name)]
+        if not self.texture and given:
+            raise ValueError(f"{given[0]} needs texture: {', '.join(KINDS)}")
+        if self.texture:
+            rows, columns = self.textured.shape
+            self._check_size("texture", rows, columns)
+
+    def _check_size(self, what: str, rows: int, columns: int) -> None:
+        if self.n_blocks not in (0, columns) or self.n_rows not in (0, rows):
+            raise ValueError(
+                f"n_blocks and n_rows must be those of the {what}, {columns} and {rows}, "
+                f"not {self.n_blocks} and {self.n_rows or self.n_blocks}"
+            )
+        self._set(n_blocks=columns, n_rows=rows)
+
     def _check_maps(self) -> None:
         if self.mask and self.mask.values is not None:
-            rows, columns = self.mask.values.shape
-            if self.n_blocks not in (0, columns) or self.n_rows not in (0, rows):
-                raise ValueError(
-                    f"n_blocks and n_rows must be those of the mask, {columns} and {rows}, "
-                    f"not {self.n_blocks} and {self.n_rows or self.n_blocks}"
-                )
-            self._set(n_blocks=columns, n_rows=rows)
+            self._check_size("mask", *self.mask.values.shape)
         elif not (self.mask or self.n_blocks):
             raise ValueError("the surface has no size; give n_blocks or a mask")
         self._set(n_rows=self.n_rows or self.n_blocks)
@@ -131,8 +152,8 @@ class Geometry:
 
     @property
     def level(self) -> int:
-        """Number of levels of the pattern: 0 for a flat surface, -1 for a mask."""
-        return -1 if self.mask else len(self.lengths) // 2
+        """Number of levels of the pattern: 0 for a flat surface, -1 for a texture or a mask."""
+        return -1 if self.mask or self.texture else len(self.lengths) // 2
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -148,7 +169,8 @@ class Geometry:
     def is_papers(self) -> bool:
         """Whether the surface is of the paper's kind: square, with free edges, without files."""
         is_square = self.n_rows == self.n_blocks
-        return is_square and not (self.is_periodic or any(getattr(self, key) for key in MAPS))
+        own = self.texture or any(getattr(self, key) for key in MAPS)
+        return is_square and not (self.is_periodic or own)
 
     @property
     def is_drawn(self) -> bool:
@@ -158,6 +180,8 @@ class Geometry:
     @property
     def contact(self) -> NDArray[np.bool_]:
         """Blocks in contact with the substrate, (N_y, N_x) bool, [y, x]."""
+        if self.texture:
+            return self.textured.contact
         if self.mask is None:
             return self.pattern.contact
         if self.mask.values is None:
@@ -165,10 +189,18 @@ class Geometry:
         return self.mask.values
 
     @property
+    def textured(self) -> Texture:
+        """The texture, from lengths in m."""
+        spacing = getattr(self, "spacing")  # noqa: B009 - of the material of a scene
+        lengths = self.feature, self.pitch, self.width, spacing
+        return Texture(self.texture, *lengths, self.arrangement)
+
+    @property
     def pattern(self) -> Pattern:
-        """The pattern of pillars and grooves; a mask has none."""
-        if self.mask:
-            raise ValueError(f"the mask {self.mask} is not a pattern of pillars and grooves")
+        """The pattern of pillars and grooves; a mask or texture has none."""
+        if self.level < 0:
+            what = f"mask {self.mask}" if self.mask else f"texture {self.texture}"
+            raise ValueError(f"the {what} is not a pattern of pillars and grooves")
         pattern = Pattern.flat(self.n_blocks, self.n_rows)
         if self.n_p:
             pattern = pattern.pillared(self.n_p, self.n_s)
@@ -252,7 +284,7 @@ class Scene(Material, Geometry):
         """
         usual: Row = {each.name: each.default for each in fields(self)}
         usual |= {"n_rows": self.n_blocks, "sample_interval": self.usual_interval(self.step)}
-        if self.mask:
+        if self.level < 0:
             usual |= {"n_blocks": self.n_blocks, "n_rows": self.n_rows}
         values = {name: getattr(self, name) for name in usual}
         own = dict(self.law.given) if isinstance(self.law, LawFile) else {}
@@ -282,7 +314,15 @@ class Scene(Material, Geometry):
         along = [self.along_3] if self.along_3 else []
         others = FIELDS.keys() - set(CONSTANTS)
         own = chain.from_iterable(each for each in self.given.items() if each[0] not in others)
-        parts = self.mask or kind, *self.lengths.values(), *along, self.direction, *own
+        sizes = [f"{1e6 * each:g}um" for each in (self.feature, self.pitch) if each]
+        parts = (
+            self.mask or self.texture or kind,
+            *sizes,
+            *self.lengths.values(),
+            *along,
+            self.direction,
+            *own,
+        )
         return "-".join(map(str, parts)).encode()[:_LONGEST].decode(errors="ignore")
 
     def __str__(self) -> str:

@@ -10,6 +10,7 @@ from springblock.model.material import Material
 from springblock.model.notebook import Shown, in_words
 from springblock.model.numbers import Array, as_array
 from springblock.model.pattern import MAX_BLOCKS, Pattern
+from springblock.model.texture import Texture
 
 #: Least number of blocks per side with periodic edges: with fewer, a block would be its own
 #: neighbour, or a neighbour of another one twice.
@@ -100,7 +101,7 @@ def as_mask(contact: Pattern | ArrayLike) -> NDArray[np.bool_]:
 
     Masks of more than `MAX_BLOCKS` blocks a side, or without a block in contact, are refused.
     """
-    given = contact.contact if isinstance(contact, Pattern) else contact
+    given = contact.contact if isinstance(contact, Pattern | Texture) else contact
     mask = np.array(as_array("contact", given).filled(0))
     if mask.dtype != np.bool_:
         if mask.dtype.kind not in "iu":

@@ -82,15 +82,17 @@ def draw_detachments(ax: Axes, curve: LoadCurves, color: Any, marker: str = "") 
     ax.set_ylabel(f"first detachments\n(% per {MICRO * width:.3g} µs)")
 
 
-def draw_load_peaks(ax: Axes, curve: LoadCurves, color: Any, name: str) -> None:
-    """Draw the mean force, and triangles above its load peaks until the first run ends."""
-    forces = curve.friction[:, : _length_of_all(curve)]
-    peaks = statistics.load_peaks(forces.mean(axis=0), statistics.standard_error(forces))
-    draw_mean_force(ax, curve, color, name)
-    heights = forces[:, peaks].mean(axis=0)
+def draw_load_peaks(force: Axes, blocks: Axes, runs: Sequence[Run], color: Any) -> None:
+    """Mark the highest peak of the mean force, its second load peak, and the time between."""
+    mean, time = statistics.mean_onsets(runs).mean(axis=0), MICRO * runs[0].time
+    both = statistics.both_peaks(mean)
     triangle: Look = {"textcoords": "offset points", "ha": "center", "va": "bottom"}
-    for time, height in zip(MICRO * curve.time[peaks], heights, strict=True):
-        ax.annotate("▼", (time, height), (0.0, 2.0), color=color, **triangle)
+    for peak in (both.first, both.second) if both else (int(mean.argmax()),):
+        force.annotate("▼", (time[peak], mean[peak]), (0.0, 2.0), color=color, **triangle)
+    for ax in (force, blocks):
+        if both:
+            ends = time[both.first], time[both.second]
+            ax.axvspan(*ends, color=color, alpha=0.08, linewidth=0.0)
 
 
 def draw_run(force: Axes, blocks: Axes, run: Run, others: Sequence[Run], span: Span) -> None:

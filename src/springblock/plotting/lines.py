@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 _DIGEST = re.compile(r"-[0-9a-f]{8}$")  #: at the end of the name of a mask
 
+SHARE = "contact_fraction"  #: axis that is no field of a scene
 Names = tuple[tuple[str, str], ...]
 
 
@@ -45,12 +46,13 @@ def lines(rows: Iterable[Row], over: str) -> "DataFrame":
         import seaborn  # noqa: F401
     except ModuleNotFoundError:
         raise ModuleNotFoundError("sweeps are drawn by seaborn: pip install seaborn") from None
-    scenes = [(scene_of(row), row) for row in rows]
-    scenes = [each for each in scenes if _is_axis(over) and over in each[0].values]
+    every_scene = [(scene_of(row), row) for row in rows]
+    valued = [(scene, row, _value(scene, row, over)) for scene, row in every_scene]
+    scenes = [(scene, row, value) for scene, row, value in valued if value is not None]
     if not scenes:
-        raise ValueError(f"unknown axis {over!r}; choose one of {', '.join(AXES)}")
-    placed = [{"place": _place(s.values[over]), "line": _others(s, over)} for s, _ in scenes]
-    every = pd.DataFrame([row | more for (_, row), more in zip(scenes, placed, strict=True)])
+        raise ValueError(f"unknown axis {over!r}; choose one of {', '.join([SHARE, *AXES])}")
+    placed = [{"place": _place(value), "line": _others(s, over)} for s, _, value in scenes]
+    every = pd.DataFrame([row | more for (_, row, _), more in zip(scenes, placed, strict=True)])
     if every["place"].nunique() < 2:
         raise ValueError(f"{over} has the same value in all realisations; choose another axis")
     several = every.groupby("line")["place"].transform("nunique") > 1
@@ -88,6 +90,13 @@ def _named(every: list[Names], units: Mapping[str, str]) -> list[str]:
     return found
 
 
+def _value(scene: Scene, row: Row, over: str) -> str | float | None:
+    """Return the value of a run on an axis, None if it has none."""
+    if over == SHARE:
+        return float(row[SHARE])
+    return scene.values.get(over) if _is_axis(over) else None
+
+
 def _place(value: str | float) -> float:
     return degrees(value) if isinstance(value, str) else float(value)
 
@@ -112,6 +121,9 @@ def _others(scene: Scene, over: str) -> Names:
         del values["n_s"]
     if over in LAWS.values():  # at zero they are Coulomb's law
         del values["law"]
+    if over == SHARE:  # which follows from these
+        for name in ("mask", "n_blocks", "n_rows", "feature", "pitch", "width", *LENGTHS):
+            values.pop(name, None)
     return tuple(
         ("N" if name == "n_blocks" else name, str(value))
         for name, value in values.items()

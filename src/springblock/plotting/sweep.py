@@ -95,5 +95,7 @@ def _aside(found: "DataFrame", places: Array, scale: str) -> Array:
 def _axis(over: str, found: "DataFrame") -> str:
     """Return the name and unit of an axis, as in the tables."""
     shown = in_math(over.replace("n_blocks", "N")) if over in FIELDS else over
-    unit = (units_of(found["law"]) | {"direction": "degrees"}).get(over, "blocks")
+    own = {"direction": "degrees", "contact_fraction": ""}
+    own |= dict.fromkeys(("feature", "pitch", "width"), "m")
+    unit = (units_of(found["law"]) | own).get(over, "blocks")
     return shown + (f" ({unit})" if unit else "")

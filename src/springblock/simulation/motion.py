@@ -31,7 +31,8 @@ class Motion:
         direction: str | float,
         keep_peak: bool = False,
     ) -> None:
-        self.setup, self.method = setup, INTEGRATORS[setup.integrator]
+        self.surface, self.setup = surface, setup
+        self.method = INTEGRATORS[setup.integrator]
         how = setup.material, heading(direction), self.method, setup.step, keep_peak
         self.state, self.constants = prepare(surface, *how)
         self.samples = 0  #: recorded so far, without the initial one
@@ -88,6 +89,12 @@ class Motion:
     def recorded(self) -> Samples:
         """Samples so far, in the kernels' units."""
         return Samples(*map(np.concatenate, zip(*self.record, strict=True)))
+
+    @property
+    def force(self) -> Array:
+        """Friction force so far, (n,) N."""
+        force_x, force_y, _ = self.recorded()
+        return self.newton * np.hypot(force_x, force_y)
 
     def at_step(self) -> tuple[Array, float]:
         """Velocity (2, lattice) in l per step at this time, and the frictional heat so far."""

@@ -1,24 +1,24 @@
-"""Whether a lattice resolves slip weakening, and whether blocks slip only once before the peak."""
+"""Whether friction depends on the lattice, and whether blocks slip only once before the peak."""
 
-import logging
 import math
-from functools import cache
+from collections.abc import Iterator
 
 import numpy as np
 
+from springblock.model.direction import heading
 from springblock.model.material import Material
 from springblock.model.surface import Surface
 from springblock.simulation.run import Run
 
-#: Least number of blocks in the process zone and in l_z, from the errors in `docs/continuum.md`.
-BLOCKS, LAYERS = 6, 4
-#: Decay length over l_z of a layer with K_s of the model, across the sliding direction: the shorter
-#: one.
-_DECAY = math.sqrt(0.5)
+#: Least number of blocks in the process zone and in the decay length, from the errors in
+#: `docs/continuum.md`.
+ZONE, DECAY = 6, 5
+#: M/(k l_z²) along the sliding direction and across it, of a layer with the model's K_s, nu = 1/3.
+STIFFNESS = {"x": 1.5, "y": 0.5}
+#: Laws whose static friction on patterns depends on the lattice, however fine it is.
+_WITHOUT_LENGTH = ("coulomb", "velocity_weakening")
 #: Switches to sliding per block that has slipped, above which blocks slip more than once.
 _SWITCHES = 1.05
-
-_warn_once = cache(logging.getLogger(__name__).warning)
 
 
 def kappa(material: Material, fraction: float) -> float:
@@ -39,21 +39,50 @@ def process_zone(decay: float, kappa: float) -> float:
     return math.pi / 2.0 * decay * math.sqrt(kappa / (1.0 - kappa)) if kappa < 1.0 else math.inf
 
 
-def warn(surface: Surface, material: Material, run: Run) -> None:
-    """Warn, once for a material, where slip weakening depends on the lattice or on healing."""
+def coarsest(material: Material, decay: float, fraction: float) -> float:
+    """Return the largest spacing, m, that resolves fronts from edges with this lambda, m."""
+    return min(process_zone(decay, kappa(material, fraction)) / ZONE, decay / DECAY)
+
+
+def least_decay(surface: Surface, direction: str | float) -> float:
+    """Return the least lambda behind the edges of a surface, over l_z.
+
+    Without edges it is that across the sliding direction: fronts may then run in any direction.
+    """
+    contact = np.pad(surface.contact, 1, mode="wrap" if surface.periodic else "constant")
+    normals = zip((1, 0), heading(direction), strict=True)
+    cosines = (abs(cosine) for axis, cosine in normals if np.diff(contact, axis=axis).any())
+    along, across = STIFFNESS.values()
+    return math.sqrt(across + (along - across) * min(cosines, default=0.0) ** 2)
+
+
+def lattice(material: Material) -> str:
+    """Return a warning that friction of patterned surfaces depends on the lattice, or ""."""
+    if material.law not in _WITHOUT_LENGTH:
+        return ""
+    finest = math.sqrt(STIFFNESS["y"]) * material.thickness / DECAY
+    return (
+        f"under the law {material.law} static friction of patterned surfaces depends on the "
+        "spacing of the lattice; under slip_weakening a lattice is fine enough from spacing = "
+        f"{finest:.2g} m down; compare spacings with `springblock refine` (docs/continuum.md)"
+    )
+
+
+def doubts(surface: Surface, material: Material, direction: str | float, run: Run) -> Iterator[str]:
+    """Yield where slip weakening depends on the lattice or on healing."""
     if material.law != "slip_weakening" or surface.contact.size == 1:  # which has no front
         return
-    zone = process_zone(_DECAY * material.thickness, kappa(material, surface.contact.mean()))
-    finest = min(zone / BLOCKS, material.thickness / LAYERS)
+    decay = least_decay(surface, direction) * material.thickness
+    finest = coarsest(material, decay, surface.contact.mean())
     if material.spacing > finest * (1.0 + 1e-9):
-        _warn_once(
+        yield (
             f"spacing = {material.spacing:g} m does not resolve slip_distance = "
             f"{material.slip_distance:g} m; choose at most {finest:.2g} m (docs/continuum.md)"
         )
-    last = int(np.argmax(run.force)) + 1
+    last = int(np.argmax(run.force[run.onset])) + 1
     again = run.switches[:last].sum() > _SWITCHES * run.detachments[:last].sum()
     if again and material.healing == "instant":
-        _warn_once(
+        yield (
             f"with gamma = {material.gamma:g} 1/s and slip_distance = {material.slip_distance:g} m "
             "blocks stop, heal and slip again before the force peaks; compare with healing: none"
         )

@@ -17,9 +17,6 @@ if TYPE_CHECKING:
 
 Counts = NDArray[np.integer]
 
-#: Smallest rise of the force after a minimum for it to count, as a share of its drop from the peak.
-_REBOUND = 0.1
-
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Run(Shown):
@@ -34,6 +31,11 @@ class Run(Shown):
     contact: NDArray[np.bool_]  #: (N_y, N_x) blocks in contact with the substrate
     snapshot_times: Array  #: (k,) s, times of the stored displacements
     snapshots: Array  #: (k, 2, N_y, N_x) m, [time, component, y, x], displacements at these times
+    #: s, end of the onset of sliding, see `springblock.simulation.onset`; NaN if it has not ended
+    onset_end: float = math.nan
+    #: Mean of the force over P l² N_y N_x from 1.5 times the largest t_det on; NaN unless the run
+    #: lasts for one reloading from then on
+    dynamic_friction: float = math.nan
 
     @property
     def name(self) -> str:
@@ -42,26 +44,21 @@ class Run(Shown):
         return f"{columns} x {rows} blocks"
 
     @property
+    def onset(self) -> slice:
+        """Samples up to the end of the onset; all of them if it has not ended."""
+        if math.isnan(self.onset_end):
+            return slice(None)
+        return slice(round(self.onset_end / float(self.time[1])) + 1)
+
+    @property
     def t_max(self) -> float:
-        """Time of the force maximum, s."""
-        return float(self.time[np.argmax(self.force)])
+        """Time of the largest force of the onset, s."""
+        return float(self.time[np.argmax(self.force[self.onset])])
 
     @property
     def static_friction(self) -> float:
-        """Global static friction coefficient: the maximum of the force over P l² N_y N_x."""
-        return float(self.force.max()) / self.normal_force
-
-    @property
-    def dynamic_friction(self) -> float:
-        """Mean of the force over P l² N_y N_x after the first minimum that follows the peak.
-
-        The force still oscillates in these samples. NaN if the run ends before the force
-        has risen by a tenth of its drop, or the force does not fall.
-        """
-        minimum = first_minimum(self.force)
-        if minimum is None:
-            return math.nan
-        return float(self.force[minimum:].mean()) / self.normal_force
+        """Global static friction coefficient: the largest force of the onset over P l² N_y N_x."""
+        return float(self.force[self.onset].max()) / self.normal_force
 
     @property
     def t_avg(self) -> float:
@@ -117,17 +114,3 @@ def percent(run: Run, blocks: Counts) -> Array:
     These are all contact blocks, if the run lasts until all of them have detached.
     """
     return 100.0 * blocks / max(1, int(np.isfinite(run.t_det).sum()))
-
-
-def first_minimum(force: Array) -> int | None:
-    """Index of the first minimum after the peak of `force`, or None.
-
-    A minimum counts once the force has risen from it by a tenth of its drop from the peak.
-    """
-    peak = int(np.argmax(force))
-    after = force[peak:]
-    lowest = np.minimum.accumulate(after)
-    rebound = after - lowest > _REBOUND * (after[0] - lowest)
-    if not rebound.any():
-        return None
-    return peak + int(np.argmin(after[: int(np.argmax(rebound)) + 1]))

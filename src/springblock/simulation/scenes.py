@@ -13,7 +13,7 @@ from springblock.simulation.simulate import simulate
 
 #: Columns of a table that are properties of a run.
 _OF_RUN = ["static_friction", "dynamic_friction", "t_max", "t_avg", "t_first", "steps", "force"]
-_OF_RUN += ["detachments", "switches", "normal_force"]
+_OF_RUN += ["detachments", "switches", "normal_force", "onset_end"]
 
 
 def setup_of(scene: Scene) -> Setup:
@@ -51,6 +51,7 @@ def columns_of(run: Realisation, scene: Scene, seed: int) -> dict[str, Any]:
     """Return the columns of a run in a table, besides those of its scene."""
     return {
         "seed": seed,
+        "contact_fraction": float(scene.contact.mean()),
         **{name: getattr(run, name) for name in _OF_RUN},
         "energy_error": run.energy.relative_residual,
         "t_det": run.t_det.ravel(),

@@ -87,6 +87,13 @@ class Setup:
                 f"{limit(self.integrator, self.material):.4g} s here"
             )
         _ = self.every
+        longest = max(self.material.longest_interval(), self.step)
+        if self.interval > (1.0 + 1e-6) * longest:
+            raise ValueError(
+                f"sample_interval = {self.interval!r} s is too long for slider_velocity = "
+                f"{self.material.slider_velocity!r} m/s, since static friction would be too low; "
+                f"choose at most {self.material.usual_interval(self.step):.10g} s"
+            )
 
     @property
     def constants(self) -> dict[str, Any]:

@@ -10,21 +10,16 @@ from tqdm import tqdm
 from springblock.model.direction import heading
 from springblock.model.numbers import Array
 from springblock.model.surface import Surface
-from springblock.simulation import resolution
+from springblock.simulation import onset, plausibility
 from springblock.simulation.energy import Energy, elastic_energy
 from springblock.simulation.fields import Fields
 from springblock.simulation.motion import Motion, SimulationError
 from springblock.simulation.prelude import Prelude, conditions
-from springblock.simulation.run import Realisation, first_minimum
+from springblock.simulation.run import Realisation
 from springblock.simulation.setup import DEFAULT, Setup, check_type
 from springblock.solver.lattice import SQUARES, WORK, unpadded
 from springblock.solver.shear import shear_forces
 
-#: Sample intervals between two tests of whether a run is complete.
-_SAMPLES_PER_CALL = 10
-#: A run whose force does not drop (mu_d = mu_s, or strong damping) ends at this multiple of its
-#: largest t_det.
-_WITHOUT_DROP = 1.5
 #: A run with stuck blocks fails at this multiple of its longest loading time, F_c/(K_s v).
 _LATEST = 3.0
 _SOON = 10.0  #: s after which a run shows its progress on a terminal
@@ -54,9 +49,8 @@ def simulate(
     direction : "x", "y" or an angle from x in degrees
         Sliding direction.
     duration : s, or None
-        None: until every contact block has detached and the force has risen from its first
-        minimum after the peak by a tenth of its drop; at the latest until 1.5 times the largest
-        t_det.
+        None: until the end of the onset, see `springblock.simulation.onset`; at the latest 1.5
+        times the largest t_det.
     snapshot_times : s
         Times at which `Realisation.fields` are stored, in ascending order; multiples of the
         sample interval. A run without duration lasts at least until the last of them.
@@ -82,7 +76,8 @@ def simulate(
     surface.check_material(setup.material)
     contact, strongest = surface.contact, surface.strongest
     last_sample, at_samples = setup.plan(contact, strongest, duration, snapshot_times)
-    latest = _LATEST * setup.loading_time(contact, strongest)
+    latest, between = _LATEST * setup.loading_time(contact, strongest), onset.between_looks(setup)
+    plausibility.warn(plausibility.of_input(surface, setup))
 
     motion, snapshots = Motion(surface, setup, direction), list[Array]()
     if prelude is not None:
@@ -97,7 +92,7 @@ def simulate(
     until = last_sample or max(at_samples, default=None)
     with tqdm(total=until, initial=motion.samples, unit=" samples", **shown) as bar:
         while len(snapshots) < len(at_samples) or not _is_over(motion, last_sample, latest):
-            pause = (motion.samples // _SAMPLES_PER_CALL + 1) * _SAMPLES_PER_CALL
+            pause = (motion.samples // between + 1) * between
             pause = min(pause, last_sample or pause)
             for sample in [each for each in at_samples if motion.samples < each <= pause]:
                 motion.proceed(sample)
@@ -105,7 +100,7 @@ def simulate(
             motion.proceed(pause)
             bar.update(motion.samples - bar.n)
     run = _result(motion, snapshots, at_samples)
-    resolution.warn(surface, setup.material, run)
+    plausibility.warn(plausibility.of_run(surface, setup, direction, run))
     return run
 
 
@@ -114,11 +109,9 @@ def _is_over(motion: Motion, last_sample: int | None, latest: float) -> bool:
     if last_sample is not None:
         return motion.samples >= last_sample
     blocks, now = motion.state.blocks, motion.steps * motion.setup.step
-    t_det = blocks.t_det[blocks.static > 0.0] * motion.setup.step
-    last = float(t_det.max())
-    if math.isfinite(last):
-        force = np.hypot(*motion.recorded()[:2])
-        return now > _WITHOUT_DROP * last or first_minimum(force) is not None
+    t_det = blocks.t_det[blocks.static > 0.0]
+    if np.isfinite(t_det).all():
+        return onset.end_of_onset(motion.force, t_det, motion.surface, motion.setup) is not None
     if now > latest:
         stuck = int(np.isinf(t_det).sum())
         raise SimulationError(
@@ -143,14 +136,16 @@ def _result(motion: Motion, snapshots: list[Array], at_samples: list[int]) -> Re
     material, step = setup.material, setup.step
     n_y, n_x = grid.shape
     t_det = unpadded(blocks.t_det, grid)  # in steps
-    detached_in = np.ceil(t_det[np.isfinite(t_det)]).astype(np.int64) // setup.every + 1
+    detached_in = onset.known_at(t_det[np.isfinite(t_det)], setup.every)
     time = setup.every * step * np.arange(motion.samples + 1.0)
     velocity, heat = motion.at_step()
     velocity = motion.vectors(*velocity) * material.spacing / step
-    force_x, force_y, switches = motion.recorded()
+    load = material.block_load * n_y * n_x
     energy = _energy(motion, velocity, heat)
     if not math.isfinite(energy.relative_residual):
         raise SimulationError(f"at t = {time[-1]:.4g} s the energy is {energy}")
+    surface, force, in_contact = motion.surface, motion.force, t_det[motion.surface.contact]
+    end = onset.end_of_onset(force, in_contact, surface, setup)
     kept = np.array(snapshots).reshape(-1, 3, 2, n_y, n_x)
     fields = Fields(
         time=setup.interval * np.array(at_samples, float),
@@ -162,11 +157,15 @@ def _result(motion: Motion, snapshots: list[Array], at_samples: list[int]) -> Re
     )
     return Realisation(
         time=time,
-        force=motion.newton * np.hypot(force_x, force_y),
+        force=force,
         detachments=np.bincount(detached_in, minlength=motion.samples + 1),
-        switches=switches,
+        switches=motion.recorded().switches,
         t_det=np.where(np.isfinite(t_det), step * t_det, np.nan),
-        normal_force=material.block_load * n_y * n_x,
+        normal_force=load,
+        onset_end=math.nan if end is None else float(time[end]),
+        dynamic_friction=onset.friction_of_sliding(
+            time, force / load, step * in_contact, surface, setup
+        ),
         energy=energy,
         steps=motion.steps,
         displacement=motion.displacement(),

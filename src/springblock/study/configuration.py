@@ -42,7 +42,7 @@ _NUMBER = re.compile(r"[-+]?(?!0[0-9])([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+
 #: Words of YAML and their values.
 _YAML_WORDS = {"true": True, "false": False, "null": None}
 #: Groups of the paper's figures, with the level of their scenes.
-_LEVELS = {"flat": 0, "pillars": 1, "grooves": 2}
+_LEVELS = {"flat": 0, "pillars": 1, "grooves": 2, "other_grooves": 2}
 #: Validator for which 24.0 is not an integer, as in Python.
 _Validator = jsonschema.validators.extend(
     jsonschema.Draft202012Validator, type_checker=jsonschema.Draft4Validator.TYPE_CHECKER
@@ -154,12 +154,6 @@ def is_own(configuration: Configuration) -> bool:
 def _check_ensemble(scene: Scene, seeds: int) -> None:
     Surface(scene.contact, 1.0, 1.0, scene.is_periodic)  # refuses invalid ones
     setup = setup_of(scene)
-    if scene.sample_interval > (1.0 + 1e-6) * max(scene.longest_interval(), scene.step):
-        raise ValueError(
-            f"sample_interval = {scene.sample_interval!r} s is too long for slider_velocity = "
-            f"{scene.slider_velocity!r} m/s, since static friction would be too low; choose at "
-            f"most {scene.usual_interval(scene.step):.10g} s"
-        )
     if scene.is_drawn:
         check_draws(scene.shape, scene.material)
     elif seeds > 1:
@@ -184,6 +178,11 @@ def _check_for_figures(scene: Scene, seeds: int, group: str) -> None:
     # Without scatter one realisation suffices, and no figure needs its c(r).
     scatters = scene.mu_static_std > 0.0 or scene.mu_dynamic_std > 0.0
     is_single = group not in _LEVELS and seeds == 1 and not scatters
+    if scene.sides and not (scatters or is_single):
+        raise ValueError(
+            "without scatter c(r) is not defined; give one seed, in a group of another name, or "
+            "scatter"
+        )
     if scene.sides and seeds < _CORRELATED and not is_single:
         raise ValueError(
             f"seeds must be at least {_CORRELATED}, for correlations on pillars of {scene.n_p} "
@@ -253,7 +252,7 @@ def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[t
         raise ValueError(f"{name} is not a constant of the material; give it beside `material`")
     if "law" in material:  # which has its own constants
         usual = {name: usual[name] for name in usual.keys() & FIELDS.keys() - set(OF_LAWS)}
-    if "mask" in grid or "topography" in grid:  # which then gives N
+    if grid.keys() & {"mask", "topography", "texture"}:  # which then gives N
         del usual["n_blocks"]
     own = {name: grid[name] for name in grid.keys() - {"material", "seeds"}}
     own |= {"snapshot_times": [tuple(grid.get("snapshot_times", ()))]}

@@ -21,6 +21,7 @@ from springblock.study.results import (
     PARTS,
     TABLES,
     Figure,
+    Page,
     Table,
     file_name,
     having,
@@ -148,8 +149,13 @@ class Plan:
     @property
     def pages(self) -> dict[str, list[str]]:
         """Return the files of tables from which each page of the study is written."""
-        held = [page for page in PAGES.values() if {*page.tables} <= self.tables.keys()]
+        held = [page for page in PAGES.values() if self.has(page)]
         return {page.name: [self.tables[name] for name in page.tables] for page in held}
+
+    def has(self, result: Page | Figure) -> bool:
+        """Return whether the study has the tables, and their parts, that a result shows."""
+        parts = {*chain.from_iterable(self.measured.values())}
+        return {*result.tables} <= self.tables.keys() and {*result.parts} <= parts
 
     def sampled(self, part: str) -> str:
         """Return seeds and finest step of ensembles that measure errors, as options."""
@@ -170,7 +176,7 @@ class Plan:
             name: figure
             for name, figure in FIGURES.items()
             if all(self.drawn.get(group) for group in figure.groups)
-            and {*figure.tables} <= self.tables.keys()
+            and self.has(figure)
             and not (self.own and figure.draws in ("nothing", "pattern"))
         }
 
@@ -214,7 +220,8 @@ class Plan:
             )
         drawn = declared.scenes(self.drawn, lengths)
         files = chain.from_iterable(self.batches([scene])[: declared.batches] for scene in drawn)
-        return [*files, *(self.tables[name] for name in declared.tables)]
+        tables = (*declared.tables, *(self.tables.keys() & declared.also))
+        return [*files, *(self.tables[name] for name in tables)]
 
     def for_jobs(self) -> str:
         """Return the plan that jobs compare with their code, see `provenance.planned`."""

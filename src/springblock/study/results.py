@@ -65,6 +65,7 @@ class Page:
     name: str
     values: str
     tables: tuple[str, ...]
+    parts: tuple[str, ...] = ()  #: of tables, all of which it shows
 
     @property
     def template(self) -> str:
@@ -90,7 +91,7 @@ class Figure:
     - tables: those of the whole study;
     - realisations: of scenes, by the values of `keys`. Of several scenes with equal values the
       first is drawn. Without keys there is one scene, and the function takes its realisations;
-    - correlations: the tables of correlations, and the n_p that the configuration gives.
+    - correlations: the n_p that the configuration gives, and the tables.
     """
 
     name: str  #: of its file and of its command
@@ -100,10 +101,11 @@ class Figure:
     marks: str = ""  #: surfaces, realisations, and the meaning of bands, bars and symbols
     draws: Literal["nothing", "pattern", "tables", "realisations", "correlations"] = "realisations"
     groups: tuple[str, ...] = ()  #: of scenes, all of which a study must have
-    also: tuple[str, ...] = ()  #: groups that are drawn, too, where a study has them
+    also: tuple[str, ...] = ()  #: groups, or tables, that are drawn, too, where a study has them
     keys: tuple[str, ...] = ()  #: attributes of scenes that tell the realisations apart
     batches: int | None = None  #: that hold the first realisation, the one drawn; None for all
     tables: tuple[str, ...] = ()
+    parts: tuple[str, ...] = ()  #: of tables, all of which it shows
 
     @property
     def category(self) -> str:
@@ -154,8 +156,8 @@ def having(lengths: Lengths, scenes: Iterable[Scene]) -> list[Scene]:
 
 def file_name(scene: Scene) -> str:
     """Name the file of a surface's film, in letters, digits and _."""
-    if scene.mask:
-        return re.sub(r"\W", "_", str(scene.mask))
+    if scene.level < 0:
+        return re.sub(r"\W", "_", str(scene.mask or scene.folder))
     kinds = ("flat_surface", "grooves", "grooves"), ("", "pillars", "grooved_pillars")
     rows = {"rows": scene.n_rows} if scene.n_rows != scene.n_blocks else {}
     sizes = scene.lengths | {"N": scene.n_blocks} | rows

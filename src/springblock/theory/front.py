@@ -29,7 +29,8 @@ import numpy as np
 
 from springblock.model.material import Material
 from springblock.model.numbers import Array
-from springblock.theory.layer import STIFFNESS, Groups, _load, _Weakening
+from springblock.simulation.resolution import STIFFNESS
+from springblock.theory.layer import Groups, _load, _Weakening
 
 _NODES = 64  #: of Gauss's quadrature over the zone that has slipped
 _WAVES, _HIGHEST = 400, 12.0  #: wave numbers q of integrals, and the largest, over 1/xi

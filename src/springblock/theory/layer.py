@@ -26,17 +26,19 @@ fracture energy Gamma = Delta d_c/2.
 import cmath
 import math
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq, minimize_scalar
-from scipy.sparse import csc_array, diags_array, eye_array, kron
+from scipy.sparse import csc_array, diags_array, eye_array, kronsum
 from scipy.sparse.linalg import spsolve
 
 from springblock.model.material import Material
 from springblock.model.numbers import Array
 from springblock.simulation import resolution
+from springblock.simulation.resolution import STIFFNESS
 
 #: Strongly damped, without disorder and healing; sizes are those of the theory.
 PLAIN = Material(
@@ -47,10 +49,12 @@ PLAIN = Material(
     slip_distance=1e-7,
     healing="none",
 )
-#: M/(k l_z²) along the sliding direction and across it, of a layer with the paper's K_s, nu = 1/3.
-STIFFNESS = {"x": 1.5, "y": 0.5}
 #: States of a stripe, and loads of a square, at which the force is computed.
 _STATES, _LOADS = 200, 20
+#: Values of mu_d and kappa for which the best width is shown.
+MU_D = (0.1, 0.3, 0.6, 0.75, 0.9)
+KAPPA = (0.1, 0.2, 0.35, 0.5, 0.8, 1.2, 2.0, 4.0)
+_BEST = 3.0, 40.0  #: widths among which the best one is looked for
 #: Decrease of slip, in Delta/k, that is rounding.
 _SLACK = 1e-9
 
@@ -73,6 +77,11 @@ class Groups:
             resolution.kappa(material, fraction),
             material,
         )
+
+    @property
+    def numbers(self) -> tuple[float, float]:
+        """m and kappa, on which the excess depends."""
+        return self.residual, self.kappa
 
     def friction(self, excess: float) -> float:
         """Return the coefficient of friction for an excess."""
@@ -147,7 +156,14 @@ class _Weakening(NamedTuple):
 
 
 def _load(zone: _Weakening, s: float, residual: float, pull: float) -> float:
-    """Return p for fronts at s: the condition on u at the edge is solved by a root."""
+    """Return p for fronts at s, from the condition on u at the edge.
+
+    It is linear in p where the whole slip zone weakens, and solved by a root elsewhere.
+    """
+    rise = zone.slope(s) + pull * zone.f(s)
+    within = (rise - pull * residual) / (rise + pull)
+    if s <= zone.length(within):
+        return within
 
     def unbalanced(p: float) -> float:
         y = min(s, zone.length(p))
@@ -157,6 +173,23 @@ def _load(zone: _Weakening, s: float, residual: float, pull: float) -> float:
         return bend - pull * (p + residual - edge)
 
     return float(brentq(unbalanced, -residual, 1.0, xtol=1e-14))
+
+
+def best_width(residual: float, kappa: float) -> float:
+    """Return the width over lambda of stripes with the lowest friction, with b = a."""
+
+    def excess(log_width: float) -> float:
+        width = math.exp(log_width)
+        return stripe(width, width, residual, kappa).excess
+
+    found = minimize_scalar(excess, bounds=np.log(_BEST), method="bounded", options={"xatol": 0.01})
+    return math.exp(found.x)
+
+
+@cache
+def best_widths() -> Array:
+    """Return `best_width` for mu_s = 1, `MU_D` and `KAPPA`, (mu_d, kappa)."""
+    return np.array([[best_width(mu / (1.0 - mu), kappa) for kappa in KAPPA] for mu in MU_D])
 
 
 def sharp_minimum(residual: float, kappa: float) -> tuple[float, float]:
@@ -171,32 +204,28 @@ def sharp_minimum(residual: float, kappa: float) -> tuple[float, float]:
 
 
 class Slip(NamedTuple):
-    """Slip of a quarter of a periodic cell, flat (N_y N_x,)."""
+    """Slip of a cell, flat (N_y N_x,)."""
 
     u: Array
     slides: NDArray[np.bool_]
 
 
-class Square:
-    """Quarter of a periodic cell with a square pillar, in blocks.
+class Cell:
+    """Periodic cell of pillars that is its own mirror image at all edges, in blocks.
 
     The scalar problem: the displacement along the sliding direction, with one M along it and
-    another across.
+    another across. `drop` is tau_s - tau_d on each block, (N_y, N_x), over its mean Delta.
     """
 
-    def __init__(self, pillar: int, gap: int, thickness: float) -> None:
-        """Take half of a pillar and half of a gap, and l_z, in blocks."""
-        n = pillar + gap
-        second = diags_array([-1.0, 2.0, -1.0], offsets=[-1, 0, 1], shape=(n, n)).tolil()
-        second[0, 0] = second[n - 1, n - 1] = 1.0
-        x, y = (STIFFNESS[axis] * thickness**2 for axis in "xy")
-        one = eye_array(n)
-        inside = np.arange(n) < pillar
-        self.contact = np.outer(inside, inside).ravel()
-        self.matrix = csc_array(kron(one, x * second) + kron(y * second, one) + kron(one, one))
+    def __init__(self, contact: NDArray[np.bool_], thickness: float, drop: Array | float) -> None:
+        """Take the blocks in contact, (N_y, N_x), and l_z in blocks."""
+        y, x = map(_second_difference, contact.shape)
+        y, x = STIFFNESS["y"] * thickness**2 * y, STIFFNESS["x"] * thickness**2 * x
+        self.contact, self.drop = contact.ravel(), np.broadcast_to(drop, contact.shape).ravel()
+        self.matrix = csc_array(kronsum(x, y) + eye_array(contact.size))
 
     def excess(self, residual: float, kappa: float) -> float:
-        """Return the largest mean of (tau - tau_d)/Delta over the pillar while the load grows.
+        """Return the largest mean of (tau - tau_d)/Delta on blocks in contact as the load grows.
 
         The load is k U/Delta. Finer loads follow around that of the largest, from the state before.
         """
@@ -220,8 +249,8 @@ class Square:
         slides, weak = slip.slides.copy(), slip.u >= kappa
         while True:
             free = ~self.contact | slides
-            softening = np.where(slides & ~weak, 1.0 / kappa, 0.0)
-            friction = np.where(slides, residual + ~weak, 0.0)
+            softening = np.where(slides & ~weak, self.drop / kappa, 0.0)
+            friction = np.where(slides, residual + ~weak * self.drop, 0.0)
             stiffness = (self.matrix - diags_array(softening))[free][:, free]
             u = np.zeros(len(free))
             u[free] = spsolve(csc_array(stiffness), (load - friction)[free], "MMD_AT_PLUS_A")
@@ -230,7 +259,7 @@ class Square:
             if ((u >= kappa) & slides != weak & slides).any():
                 weak = u >= kappa
                 continue
-            overloaded = self.contact & ~slides & (load - self.matrix @ u > 1.0 + residual)
+            overloaded = self.contact & ~slides & (load - self.matrix @ u > residual + self.drop)
             if not overloaded.any():
                 return Slip(u, slides)
             slides |= overloaded
@@ -241,3 +270,11 @@ def with_springs(material: Material, root: float) -> Material:
     thickness, density = material.thickness / root, material.density * root
     modulus = material.youngs_modulus * root
     return replace(material, thickness=thickness, density=density, youngs_modulus=modulus)
+
+
+def _second_difference(n: int) -> csc_array:
+    """Return minus the second difference of n values with a mirror at both ends, (n, n)."""
+    second = diags_array([-1.0, 2.0, -1.0], offsets=[-1, 0, 1], shape=(n, n)).tolil()
+    second[0, 0] -= 1.0
+    second[n - 1, n - 1] -= 1.0
+    return csc_array(second)

@@ -15,11 +15,6 @@ def test_the_order_of_each_seed_is_told_whatever_the_sign_of_its_errors():
     assert orders_of(SETTLED_STEPS, found, "t_max") == pytest.approx([1.0, 2.0, 3.0], abs=1e-3)
 
 
-def test_errors_of_nothing_have_the_order_of_rounding():
-    found = {h: {"t_max": np.zeros(2)} for h in (STEP, STEP / 2.0)}
-    assert orders_of((STEP, STEP / 2.0), found, "t_max") == pytest.approx([0.0, 0.0])
-
-
 def test_one_slow_run_does_not_change_the_cost_of_a_realisation():
     """Steps are averaged, and the CPU time is the median."""
     runs = [

@@ -2,8 +2,6 @@
 
 import csv
 import math
-import re
-from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,8 +10,8 @@ import pytest
 
 from springblock.analysis.estimate import Estimate
 from springblock.io.parquet import rows_to_table
-from springblock.study.claims import STATEMENTS, statements
-from springblock.study.claims.page import Judged, _clearness, values
+from springblock.study.claims import STATEMENTS
+from springblock.study.claims.page import Judged, values
 from springblock.study.claims.rule import INF, TESTS, Case, Evidence, Finding, Statement, verdict
 from springblock.study.claims.table import SCHEMA, rows
 from springblock.study.pages import rendered
@@ -132,26 +130,9 @@ def test_the_page_has_each_statement_with_its_mark_and_count():
     assert f"| {GROWS.title} | general | **reproduced in part** | 1 of 2 | changed |" in page
 
 
-def test_the_page_can_be_read_at_one_sitting():
-    assert len((ROOT / "docs/claims.md").read_text(encoding="utf-8").split()) <= 4000
-
-
 def test_every_test_has_a_statement_and_every_statement_a_test():
     assert {each.id for each in STATEMENTS} == set(TESTS)
     assert {each.form for each in STATEMENTS} == {"universal", "general"}
-
-
-def test_a_statement_names_another_by_its_title():
-    entry = {"title": "It grows", "section": "3.2", "figure": 7, "form": "general"}
-    entry |= {"words": "It does.", "criterion": "It grows.", "remark": "As {onset}.", "changed": ""}
-    one, _ = statements({"growing_length": entry, "onset": entry | {"title": "It begins"}})
-    assert one.remark == "As “It begins”."
-
-
-@pytest.mark.parametrize("statement", STATEMENTS, ids=lambda each: each.id)
-def test_numbers_from_data_stand_in_the_table_alone(statement):
-    """A number in a remark is that of a past study; bounds of tests stand in the criterion."""
-    assert re.findall(r"\d[.,]\d|±", statement.remark + statement.changed) == []
 
 
 def registered(name):
@@ -166,23 +147,3 @@ def test_every_statement_is_as_registered():
     assert all(each.changed for each in others)
     left = {row["claim"] for row in registered("retired.csv")}
     assert left == set(forms) - {each.title for each in STATEMENTS}
-
-
-@pytest.mark.parametrize("place", ["docs/claims.md", "docs/registration/README.md"])
-def test_pages_count_the_verdicts_of_the_registered_tests(place):
-    found = Counter(row["verdict"] for row in registered("confirmed.csv"))
-    text = " ".join((ROOT / place).read_text(encoding="utf-8").split())
-    said = re.search(r"gave,?[^.]* \d+ reproduced[^.]* not settled\.", text)
-    names = ("reproduced", "reproduced in part", "not reproduced", "not settled")
-    numbers = [int(number) for number in re.findall(r"(\d+) (?:reproduced|in part|not)", said[0])]
-    assert numbers == [found[name] for name in names]
-
-
-@pytest.mark.parametrize(
-    ("claimed", "margin"), [((1.0, math.inf), 5.0), ((-math.inf, 5.0), 3.0), ((1.0, 5.0), 3.0)]
-)
-def test_a_margin_is_in_units_of_the_arm_towards_the_limit(claimed, margin):
-    """The value 2 has the interval [1.8, 3]."""
-    row = {"value": 2.0, "together_low": 1.8, "together_high": 3.0}
-    row |= {"claimed_low": claimed[0], "claimed_high": claimed[1]}
-    assert _clearness(row)[0] == pytest.approx(margin)

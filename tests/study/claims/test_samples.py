@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 
 from springblock import compute_prelude
-from springblock.analysis.statistics import Peaks, prominence
+from springblock.analysis.statistics import Peaks
 from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.study.claims.flat import single_events, starts_no_front, strain_left
 from springblock.study.claims.grooves import (
-    across_sticks_better,
     over_all,
     over_most,
     prominent,
@@ -20,11 +19,9 @@ from springblock.study.claims.grooves import (
     slips_again,
     unevenness,
 )
-from springblock.study.claims.pillars import _rings
 from springblock.study.claims.rule import Evidence
 from springblock.study.claims.samples import compared, difference, isolated, mean, position
-from springblock.study.claims.sides import correlated_along, mixed
-from springblock.study.claims.surfaces import core
+from springblock.study.claims.sides import correlated_along
 from study.claims import paper
 from study.claims.paper import ACROSS, ALONG, FLAT, PLAIN
 
@@ -85,12 +82,6 @@ def test_events_along_the_sliding_direction_hold_whole_sides():
     assert found.estimate.value == pytest.approx((4.0 - 4.0 / 3.0) - (1.0 - 1.0))
 
 
-def test_mixed_sides_keep_each_place_and_take_it_from_another_realisation():
-    times = np.arange(3.0)[:, None, None, None] + 10.0 * np.arange(4.0) + np.zeros((3, 2, 2, 4))
-    assert mixed(times).shape == times.shape
-    assert mixed(times)[1, 1, 0].tolist() == [1.0, 12.0, 20.0, 31.0]
-
-
 def test_a_run_that_has_ended_keeps_its_last_force_in_the_mean():
     """It lies below the load peaks, which the mean over the runs that go on would shift."""
     whole, ends = [paper.record(ALONG, seed) for seed in range(4)], (400, 400, 380, 500)
@@ -100,14 +91,6 @@ def test_a_run_that_has_ended_keeps_its_last_force_in_the_mean():
         for runs in (whole, ended)
     )
     assert other.value == pytest.approx(one.value, rel=1e-3)
-
-
-def test_fluctuations_of_single_runs_cancel_in_their_mean_force(rng):
-    run = paper.record(ACROSS, 0)
-    noise = 0.03 * rng.standard_normal((200, len(run.force)))
-    noisy = [replace(run, force=run.force * (1.0 + each)) for each in noise]
-    found = prominent(Evidence(records={ACROSS: noisy}), ACROSS, (0.0, 1.0)).estimate
-    assert found.value < 0.2 * np.mean([prominence(each.force) for each in noisy])
 
 
 def test_the_mean_detachment_rate_is_that_from_the_first_to_the_last():
@@ -131,24 +114,12 @@ def test_strain_that_is_left_is_not_that_which_replaces_it():
     assert scatter == pytest.approx([1.0, 0.5, 1.0], abs=0.05)
 
 
-def test_only_grooves_of_two_blocks_or_less_are_narrow():
-    scenes = [Scene(48, n_p2=8, n_s2=width, direction=way) for width in (2, 4) for way in "xy"]
-    found = across_sticks_better(Evidence({key: [RUN] for key in scenes}))
-    assert [each.case.n_s2 for each in found] == [2]
-
-
 def test_further_slips_are_divided_by_the_blocks_detached_at_the_lowest_force():
     """Two of four blocks have detached at sample 2; from the first peak on, 3 - 1 slips are new."""
     curves = {"time": np.arange(5.0), "switches": np.array([9, 2, 1, 9, 9])}
     run = replace(RUN, t_det=np.array([1.0, 2.0, 3.0, np.nan]), **curves)
     run = replace(run, detachments=np.array([0, 1, 0, 0, 0]))
     assert slips_again((run, Peaks(1, 2, 3))) == pytest.approx(2 / 2)
-
-
-def test_blocks_at_the_border_of_a_surface_belong_to_the_core():
-    """No neighbour without contact pulls on them, as it does beside a groove."""
-    assert core(Scene(12).contact).all()
-    assert 0 < core(Scene(12, n_p2=4, n_s2=2).contact)[:, 0].sum() < 8
 
 
 def test_the_stress_before_any_slip_follows_from_elasticity():
@@ -158,8 +129,3 @@ def test_the_stress_before_any_slip_follows_from_elasticity():
     found = unevenness(scene, Material())
     assert found == pytest.approx(computed.std() / computed.mean(), rel=0.02)
     assert unevenness(Scene(12), Material()) == pytest.approx(0.0, abs=1e-9)
-
-
-@pytest.mark.parametrize(("n_p", "rings"), [(4, 1), (5, 2), (6, 2)])
-def test_a_pillar_has_a_second_ring_if_it_has_a_centre_within(n_p, rings):
-    assert len(list(_rings(n_p))) == rings

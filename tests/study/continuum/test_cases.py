@@ -26,8 +26,9 @@ def test_stripes_have_the_friction_of_the_theory(shape, monkeypatch):
     assert row["width"] / row["decay"] == pytest.approx(3.5, abs=0.25)
 
 
-def test_squares_have_the_friction_of_the_theory(monkeypatch):
-    series = Series("square", material=replace(PLAIN, spacing=5e-6), widths=(4,))
+@pytest.mark.parametrize("own", [{}, {"sides": (2, 1)}, {"is_staggered": True}, {"wave": 0.1}])
+def test_pillars_have_the_friction_of_the_theory(own, monkeypatch):
+    series = Series("square", material=replace(PLAIN, spacing=5e-6), widths=(4,), **own)
     monkeypatch.setitem(SERIES, "square", [series])
     (row,) = cases.measure("square")
     assert row["simulated"] == pytest.approx(row["predicted"], abs=0.004)

@@ -32,6 +32,23 @@ def damped() -> list[Row]:
     ]
 
 
+def springs() -> list[Row]:
+    """Return `mechanism_springs`, for half and twice K_s: thickness goes with K_s^(-1/2)."""
+    return [row for factor in (0.5, 2.0) for row in rows(thickness=1e-5 / factor**0.5)]
+
+
+def grooves() -> list[Row]:
+    """Return `mechanism_grooves`: overshoot together has the friction of the full model."""
+    values = {"sticking": (0.84, 0.001), "overshooting": (0.73, 0.01)}
+    values |= {"collective": (0.69, 0.01), "simulation": (0.69, 0.02)}
+    return [
+        {"model": name}
+        | limits("static_friction", (value, value, value))
+        | limits("prominence", (dip, dip, dip))
+        for name, (value, dip) in values.items()
+    ]
+
+
 def settings() -> list[Row]:
     """Return `sensitivities` of a few settings."""
     quantities = {"size": 6.0, "friction": 0.6, "depth": 0.05, "lag": -1e-5, "prominence": 0.03}

@@ -9,6 +9,7 @@ from springblock import Material, Pattern, Setup, Surface, simulate
 from springblock.simulation.energy import elastic_energy
 from springblock.study.mechanism.models import (
     MODELS,
+    collective,
     independent,
     overshooting,
     quasi_static,
@@ -115,6 +116,20 @@ def test_load_is_transferred_as_the_equilibrium_of_all_sliding_blocks_demands(rn
         slides[rest[reached.argmin()]] = True
     curve = quasi_static(layer, static, dynamic)
     assert np.stack(curve, axis=1) == pytest.approx(np.array(found), rel=1e-9)
+
+
+@pytest.mark.parametrize("second", [1.05, 1.3])
+def test_blocks_of_an_avalanche_overshoot_together(second):
+    """The second block joins where the first overloads it, and both are mirrored at mu_d F_n."""
+    static, dynamic = np.array([1.0, second]), np.array([0.8, 0.7])
+    curve = collective(ROW, static, dynamic)
+    loaded = 1.0 + 2.0 * (1.0 - 0.8) * K / (K + K_S)  # of the second, by the first alone
+    assert (loaded > second) == (second == 1.05)
+    if loaded > second:
+        assert len(curve.force) == 1
+    else:
+        rest = second - loaded
+        assert curve.force[1] == pytest.approx(0.6 + loaded + 2.0 * rest)
 
 
 @pytest.mark.parametrize(("model", "slip"), [(sticking, 1.0), (overshooting, 2.0)])

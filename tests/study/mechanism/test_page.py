@@ -9,7 +9,8 @@ from study.mechanism import chapter
 @pytest.fixture(scope="module")
 def found():
     """Values from tables made up."""
-    return values(chapter.rows(), chapter.damped(), chapter.settings())
+    tables = chapter.rows, chapter.damped, chapter.springs, chapter.grooves, chapter.settings
+    return values(*(rows() for rows in tables))
 
 
 def test_changes_are_those_from_one_model_to_the_next_in_percent(found):
@@ -24,6 +25,12 @@ def test_damped_runs_are_compared_with_load_transfer_seed_by_seed(found):
     assert damped["drag"] == pytest.approx(1.2e-3)
     assert damped["excess"][6] == pytest.approx([0.01] * 3)
     assert damped["minimum"].place == 6
+
+
+def test_springs_are_told_by_their_ratio_to_the_papers(found):
+    assert {*found["springs"]} == {"0.5", "2"}
+    assert found["springs"]["2"]["minimum"]["simulation"].place == 20
+    assert found["springs"]["2"]["uneven"] == chapter.UNEVEN[6]
 
 
 def test_settings_have_free_edges_unless_these_are_varied(found):

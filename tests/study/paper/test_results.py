@@ -8,20 +8,13 @@ import pandas as pd
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
-from matplotlib.colors import to_rgb
 
 from springblock import Pattern
-from springblock.analysis.statistics import (
-    mean_interval,
-    pillar_ring,
-    prominence,
-)
+from springblock.analysis.statistics import prominence_of_mean
 from springblock.io.identity import identity
 from springblock.io.records import Record
 from springblock.model.scene import Scene
 from springblock.plotting.maps import painted, scale
-from springblock.plotting.style import BEFORE_AFTER, pillar_looks
-from springblock.simulation.run import friction
 from springblock.study.results import FIGURES
 
 SIZE = 6
@@ -115,14 +108,14 @@ DRAWINGS = {
     "figure_3": lambda: FIGURES["figure_3"].function()(ensemble(110e-6)),
     "figure_5": lambda: FIGURES["figure_5"].function()(ensemble(110e-6)),
     "figure_6": lambda: FIGURES["figure_6"].function()(sizes()),
-    "figure_7": lambda: FIGURES["figure_7"].function()(correlation(), lengths(), 60),
+    "figure_7": lambda: FIGURES["figure_7"].function()(60, correlation(), lengths()),
     "figure_9": lambda: FIGURES["figure_9"].function()(along_and_across()),
     "figure_5 of one run": lambda: FIGURES["figure_5"].function()(
         [replace(record(0), scene=ASKEW)]
     ),
     "figure_6 of one run": lambda: FIGURES["figure_6"].function()(sizes(runs=1)),
     "figure_7 of the smallest pillars": lambda: FIGURES["figure_7"].function()(
-        correlation(6), lengths()[:2], 6
+        6, correlation(6), lengths()[:2]
     ),
     "figure_9 of one run": lambda: FIGURES["figure_9"].function()(along_and_across(runs=1)),
 }
@@ -143,14 +136,6 @@ def test_figure_2_shows_the_run_in_front_of_the_others():
     assert blocks.get_ylim()[0] < per_block  # one block is visible
 
 
-def test_figure_2_marks_both_times():
-    run = record(0)
-    for ax in FIGURES["figure_2"].function()([run]).axes:
-        marks = [line for line in ax.get_lines() if len(line.get_xdata()) == 2]
-        upright = {line.get_linestyle(): line.get_xdata()[0] for line in marks}
-        assert upright == {":": pytest.approx(110.0), "-": pytest.approx(1e6 * run.t_avg)}
-
-
 def test_figure_2_refuses_runs_sampled_differently():
     odd = replace(record(1), time=2.0 * record(1).time)
     with pytest.raises(ValueError, match="sample interval"):
@@ -165,10 +150,6 @@ def test_figure_3_maps_t_det_over_t_max():
     norm = scale(times)
     assert (norm.vmin, norm.vmax) == pytest.approx((times.min(), times.max()))
     assert norm(1.0) == pytest.approx(0.5)
-    for place in (0.2, 0.499):  # up to t_max all are blue, from there on red
-        blue, red = BEFORE_AFTER(place), BEFORE_AFTER(1.0 - place)
-        assert blue[2] > blue[0]
-        assert red[0] > red[2]
 
 
 def lines(ax):
@@ -182,20 +163,12 @@ def test_figure_5_maps_the_mean_and_tells_sides_apart():
     starts = PILLARS.origins
     cut = [r.t_det[y : y + SIZE, x : x + SIZE] for r in ensemble(110e-6) for y, x in starts]
     np.testing.assert_allclose(shown, np.mean(cut, axis=0) / 110e-6)
-    parts = {label: xy for label, xy in lines(rings).items() if not label.startswith("_")}
-    corners, along_y, along_x = parts.values()
-    names = ["corners", "sides along $y$", "sides along $x$"]
-    assert [label.split(" (")[0] for label in parts] == names
+    parts = (xy for label, xy in lines(rings).items() if not label.startswith("_"))
+    corners, along_y, along_x = parts
     assert [len(part) for part in (corners, along_y, along_x)] == [3, 2, 2]  # rings
     assert corners[0, 1] == pytest.approx(shown[[0, 0, -1, -1], [0, -1, 0, -1]].mean())
     assert along_y[0, 1] == pytest.approx(shown[1:-1, [0, -1]].mean())
     assert along_x[0, 1] == pytest.approx(shown[[0, -1], 1:-1].mean())
-    title = rings.get_legend().get_title().get_text()
-    of_runs = np.array(cut).reshape(4, 4, SIZE, SIZE).mean(axis=1) / 110e-6
-    rings_of = [pillar_ring(SIZE, depth).values() for depth in range(3)]
-    samples = [of_runs[:, mask].mean(axis=1) for ring in rings_of for mask in ring if mask.any()]
-    widest = max(mean_interval(each).high - mean_interval(each).mean for each in samples)
-    assert title == f"95 % intervals: up to ±{widest:.2g}"
 
 
 def test_figure_6_shows_every_size_and_marks_both_times():
@@ -214,17 +187,6 @@ def test_figure_6_shows_every_size_and_marks_both_times():
     each = [100.0 - 1e6 * run.t_avg for run in ensemble(100e-6)]
     assert dots[1].get_ydata() == pytest.approx(each)
     assert lag.containers[1].lines[0].get_ydata() == pytest.approx(np.mean(each))
-
-
-def test_figure_6_shows_other_sizes_than_the_papers_at_the_right_only():
-    picture = FIGURES["figure_6"].function()({n_p: ensemble(100e-6) for n_p in (0, 4, 6, 8)})
-    force, highest = picture.axes[:2]
-    assert lines(force).keys() & {f"$n_p$ = {n_p}" for n_p in (4, 6, 8)} == {"$n_p$ = 6"}
-    assert [bar.lines[0].get_xdata()[0] for bar in highest.containers] == [4.0, 6.0, 8.0]
-
-
-def test_the_band_of_figure_6_is_the_spread_of_the_realisations():
-    force = drawn("figure_6").axes[0]
     band = force.collections[2].get_paths()[0].vertices  # of n_p = 6
     at = band[np.isclose(band[:, 0], 100.0)][:, 1]
     forces = [run.force[500] / NORMAL_FORCE for run in ensemble(100e-6)]
@@ -239,27 +201,12 @@ def marked(ax) -> list[float]:
 def test_figure_9_marks_the_load_peaks_of_the_data():
     """A row for each configuration, that with two peaks first."""
     wide, _, narrow, _ = drawn("figure_9").axes
-    names = ["along grooves", "across grooves", "load peak of the mean", "fewer runs"]
-    assert [text.get_text() for text in drawn("figure_9").legends[0].get_texts()] == names
-    highest = max(line.get_ydata().max() for line in narrow.get_lines() if len(line.get_xdata()))
-    assert wide.get_ylim()[0] == narrow.get_ylim()[0] == pytest.approx(0.7 * highest, rel=0.02)
     assert marked(wide) == pytest.approx([80.0, 110.0, 100.0], abs=0.5)
     assert marked(narrow) == pytest.approx([90.0], abs=0.5)
     words = wide.get_title("right")
-    along = [100.0 * prominence(friction(run)) for run in ensemble(80e-6, 110e-6)]
-    assert "8/2" in words
-    assert f"along {np.mean(along):.1f} % [" in words
-    assert "across 0.0 % [0.0, 0.0]" in words
-
-
-def test_figure_9_shows_every_single_run():
-    wide = drawn("figure_9").axes[0]
-    thin = [line.get_xydata() for line in wide.get_lines() if line.get_linewidth() == 0.3]
-    for runs, shown in ((ensemble(80e-6, 110e-6), thin[:4]), (ensemble(100e-6), thin[4:])):
-        for run, line in zip(runs, shown, strict=True):
-            ended = np.isnan(line[:, 1])
-            assert len(run.time) == np.count_nonzero(~ended)
-            np.testing.assert_allclose(line[~ended, 1], run.force / NORMAL_FORCE)
+    along = 100.0 * prominence_of_mean(ensemble(80e-6, 110e-6)).mean
+    assert f"along {along:.1f} % [" in words
+    assert "across 0.0 % [" in words
 
 
 def test_curves_go_on_past_the_shortest_run():
@@ -280,15 +227,6 @@ def test_curves_go_on_past_the_shortest_run():
         blocks = PILLARS.contact.sum()
         late = np.mean([np.sum(run.t_det > 138e-6) / blocks for run in sizes()[n_p]])
         assert shares.values.sum() == pytest.approx(100.0 * (1.0 - late), abs=0.01)
-
-
-def test_pillars_look_the_same_wherever_they_are_drawn():
-    """Neighbouring sizes differ in their marker, and in lightness for those who see no colour."""
-    looks = pillar_looks((0, *range(2, 11), 20, 30, 60)).values()
-    assert len({look["marker"] for look in looks}) == len(looks)
-    grey = [np.dot(to_rgb(look["color"]), (0.299, 0.587, 0.114)) for look in looks]
-    assert (np.diff(grey) > 0.0).all()
-    assert grey[-1] < 0.6  # readable on white
 
 
 def points(ax: Axes) -> list[np.ndarray]:
@@ -327,20 +265,6 @@ def test_the_fit_is_solid_where_it_was_fitted_and_dotted_beyond():
             np.testing.assert_allclose(line[:, 1], np.exp(-line[:, 0] / (1.1 * length)))
 
 
-def test_the_fit_with_a_free_amplitude_is_dashed_over_its_range():
-    curves = drawn("figure_7").axes[1]
-    dashed = [line.get_xydata() for line in curves.get_lines() if line.get_linestyle() == "--"]
-    shown = [line for line in dashed if len(line) > 25]
-    assert [(line[0, 0], line[-1, 0]) for line in shown] == [(1.0, 5.0)] * 2
-    tail = 1.1 * LENGTH["x"] + 1.0
-    np.testing.assert_allclose(shown[0][:, 1], 0.8 * np.exp(-shown[0][:, 0] / tail))
-    smallest = drawn("figure_7 of the smallest pillars").axes[1]
-    lines = [line.get_xydata() for line in smallest.get_lines() if line.get_linestyle() == "--"]
-    assert not any(len(line) > 25 for line in lines)  # two distances fit any two numbers
-    names = [text.get_text() for text in drawn("figure_7").legends[0].get_texts()]
-    assert names[2:4] == [r"$\exp(-r/l_c)$", r"$A\,\exp(-r/l_d)$"]
-
-
 def test_the_last_panel_shows_the_lengths_along_x_with_their_intervals():
     sizes = drawn("figure_7").axes[2]
     fitted, tail = sizes.containers
@@ -351,14 +275,13 @@ def test_the_last_panel_shows_the_lengths_along_x_with_their_intervals():
     np.testing.assert_allclose(
         [segment[:, 1] for segment in bars.get_segments()], expected[["ci_low", "ci_high"]]
     )
-    assert sizes.get_xscale() == "log"
 
 
 def test_figure_7_shows_pillars_with_equal_gaps_and_the_study_s_constants():
     """Neither other gaps, nor another material; without the size asked for it is refused."""
     others = [lengths().assign(n_s=5), lengths().assign(gamma=1.0)]
-    picture = FIGURES["figure_7"].function()(correlation(), pd.concat([lengths(), *others]), 60)
+    picture = FIGURES["figure_7"].function()(60, correlation(), pd.concat([lengths(), *others]))
     shown, usual = (each.axes[2].lines[0].get_xydata() for each in (picture, drawn("figure_7")))
     np.testing.assert_array_equal(shown, usual)
     with pytest.raises(ValueError, match="no correlation length for n_p = 60"):
-        FIGURES["figure_7"].function()(correlation(), lengths()[:4], 60)
+        FIGURES["figure_7"].function()(60, correlation(), lengths()[:4])

@@ -83,8 +83,7 @@ def opened(browser) -> Iterator:
         page.set_viewport_size({"width": width, "height": 800})
         page.on("pageerror", lambda error: complaints.append(f"error: {error}"))
         page.on(
-            "console",
-            lambda said: complaints.append(said.text) if said.type == "error" else None,
+            "console", lambda said: complaints.append(said.text) if said.type == "error" else None
         )
         own = ("data:", "blob:", file.as_uri())
         page.on(

@@ -5,13 +5,11 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator
 from pandas import DataFrame
 
 from springblock.model.defaults import INTEGRATOR, PAPER_STEP, STEP
 from springblock.plotting import style
-from springblock.plotting.curves import draw_points
-from springblock.plotting.style import BLACK, GREEN, GREY, NANO, PURPLE, Look
+from springblock.plotting.style import BLACK, GREY, NANO, Look
 from springblock.study.accuracy.conventions import ENSEMBLE, PLAIN, SCENES
 
 #: Names, colours and markers, with the Runge-Kutta whose order is lost.
@@ -20,13 +18,6 @@ _METHODS = style.METHODS | {
 }
 _ORDER_TWO: Look = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (5, 3))}
 _SCATTER: Look = {"color": "#D6E4EE", "linewidth": 0.0, "zorder": 0}
-#: Quantities whose biases are shown, and by how much their symbols are moved aside.
-_BIASES: dict[str, tuple[Look, float]] = {
-    "static_friction": ({"label": "static friction", "color": BLACK, "marker": "D"}, 0.94),
-    "t_max": ({"label": r"$t_\mathrm{max}$", "color": GREEN, "marker": "v"}, 1.0),
-    "t_avg": ({"label": r"$t_\mathrm{avg}$", "color": PURPLE, "marker": "s"}, 1.06),
-}
-_COARSEST = 2.0 * STEP  #: s; biases of larger steps are many times as large
 _RING: Look = {"fillstyle": "none", "color": BLACK, "linestyle": "none"}
 _DEFAULT_RING: Look = _RING | {"marker": "o", "markersize": 8.5}
 #: Integrator, step in s and ring of the default of `simulate` and of the paper.
@@ -56,76 +47,47 @@ _LEAST = 1e-6  #: share of the accepted error; what is less, or nothing, is draw
 
 
 def work_precision(table: DataFrame, production: DataFrame) -> Figure:
-    """Draw a-c) errors of single runs over force evaluations and d-f) biases over the CPU time.
+    """Draw the error of detachment times over the CPU time of a run, a panel for each scene.
 
-    A column for each scene, from the tables `work_precision` and `production`.
+    From the tables `work_precision` and `production`; the latter has the scatter of realisations.
     """
-    picture, panels = style.panels(style.DOUBLE, 125.0, "abc;def")
-    times, biases = panels[:3], panels[3:]
+    picture, panels = style.panels(style.DOUBLE, 72.0, "abc")
     is_reference = table.comparison == "reference"
     single = table[is_reference & (table.quantity == "t_det before horizon")]
-    times[1].sharex(times[0])
-    times[2].sharex(times[0])
-    for left, *others in (times, biases):  # the same axes, with numbers at the left only
-        for ax in others:
-            ax.sharey(left)
-            ax.tick_params(labelleft=False)
-    for scene, upper, lower in zip(SCENES, times, biases, strict=True):
-        runs, full = single[single.scene == scene], production[production.scene == scene]
-        _draw_costs(upper, runs)
-        _draw_biases(lower, full[full.step <= _COARSEST])
-        for ax, rows in ((upper, runs), (lower, full)):
-            sizes = " or ".join(f"{n} × {n}" for n in rows.n_blocks.unique())
-            ax.set_title(f"{scene}, {sizes} blocks")
-    ends = 0.3 * single.error.min(), 3.0 * single.error.max()
-    times[0].set(xscale="log", yscale="log", ylim=ends)
-    times[0].set_ylabel("RMS error of $t_\\mathrm{det}/t_\\mathrm{max}$\nbefore the horizon")
-    biases[0].set_ylabel(f"bias / standard error\nof a mean over {ENSEMBLE} seeds")
-    style.legend_above(picture, times[0], biases[0], ncols=5)
+    for ax, scene in zip(panels, SCENES, strict=True):
+        runs = single[single.scene == scene]
+        _draw_scatter(ax, production[production.scene == scene])
+        _draw_costs(ax, runs)
+        ax.set_title(f"{scene}, {runs.n_blocks.iloc[0]} × {runs.n_blocks.iloc[0]} blocks")
+        ax.set(xscale="log", yscale="log", xlabel="CPU seconds per realisation")
+    for ax in panels[1:]:
+        ax.sharey(panels[0])
+        ax.tick_params(labelleft=False)
+    panels[0].set_ylim(0.3 * single.error.min(), 3.0 * single.error.max())
+    panels[0].set_ylabel("relative error of $t_\\mathrm{det}$")
+    style.legend_above(picture, panels[0], ncols=4)
     return picture
 
 
+def _draw_scatter(ax: Axes, rows: DataFrame) -> None:
+    """Draw a band up to the standard error of a mean t_avg over ENSEMBLE seeds, over t_avg."""
+    row = rows[(rows.quantity == "t_avg") & np.isclose(rows.step, STEP, atol=0.0)].iloc[0]
+    error = float(row.deviation / row.value) / ENSEMBLE**0.5
+    ax.axhspan(1e-12, error, label=f"statistical error of {ENSEMBLE} realisations", **_SCATTER)
+
+
 def _draw_costs(ax: Axes, rows: DataFrame) -> None:
-    """Draw the error of detachment times over force evaluations, and a line of order 2."""
+    """Draw the error of detachment times over the CPU time, and a line of order 2."""
     lines = {method: rows[rows.integrator == method].sort_values("step") for method in _METHODS}
     for method, look in _METHODS.items():
-        ax.plot(lines[method].force_evaluations, lines[method].error, **look)
-    finest = lines["leapfrog"].iloc[0]
-    spent = lines["leapfrog"].force_evaluations
-    order_two = finest.error * (finest.force_evaluations / spent) ** 2 / 3.0
+        ax.plot(lines[method].cpu_seconds, lines[method].error, **look)
+    finest, spent = lines["leapfrog"].iloc[0], lines["leapfrog"].cpu_seconds
+    order_two = finest.error * (finest.cpu_seconds / spent) ** 2 / 3.0
     ax.plot(spent, order_two, label="order 2", **_ORDER_TWO)
     for name, (method, step, look) in _MARKED.items():
         row = lines[method][np.isclose(lines[method].step, step, rtol=1e-6, atol=0.0)]
         label = f"{name}: {_METHODS[method]['label'].split(',')[0]}, {NANO * step:g} ns"
-        ax.plot(row.force_evaluations, row.error, label=label, **look)
-    ax.set_xlabel("force evaluations")
-
-
-def _draw_biases(ax: Axes, rows: DataFrame) -> None:
-    """Draw biases with their intervals over the CPU time, and name the steps; the default ringed.
-
-    Biases are in units of the standard error of a mean over ENSEMBLE seeds.
-    """
-    ax.axhspan(-1.0, 1.0, label=f"standard error of {ENSEMBLE} seeds", **_SCATTER)
-    ax.axhline(0.0, color=BLACK, linewidth=0.4, zorder=0.5)
-    for quantity, (look, aside) in _BIASES.items():
-        line = rows[rows.quantity == quantity].sort_values("step")
-        error = line.deviation.iloc[0] / np.sqrt(ENSEMBLE)
-        intervals = line[["bias", "ci_low", "ci_high"]] / error
-        draw_points(ax, aside * line.cpu_seconds, intervals, **look)
-        default = line.step == STEP
-        ax.plot(aside * line.cpu_seconds[default], intervals.bias[default], **_DEFAULT_RING)
-    side = ax.get_xaxis_transform()
-    for step, seconds in line[["step", "cpu_seconds"]].itertuples(index=False):
-        weight = "bold" if step == STEP else "normal"
-        place: Look = {"transform": side, "ha": "center", "va": "top"}
-        ax.text(seconds, 0.97, f"{NANO * step:g} ns", weight=weight, **place)
-    ax.set_xscale("log")
-    ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    ax.xaxis.set_major_formatter("{x:g}")
-    ax.xaxis.set_minor_formatter("")
-    ax.margins(x=0.12, y=0.2)
-    ax.set_xlabel("CPU seconds per realisation")
+        ax.plot(row.cpu_seconds, row.error, label=label, **look)
 
 
 def stability(cases: DataFrame) -> Figure:

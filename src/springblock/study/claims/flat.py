@@ -12,7 +12,7 @@ from springblock.io.records import Record
 from springblock.io.rows import select
 from springblock.model.defaults import PAPER_STEP
 from springblock.model.numbers import Array
-from springblock.simulation.run import Run, first_minimum
+from springblock.simulation.run import Run
 from springblock.study.claims import rule, samples, surfaces
 from springblock.study.claims.rule import INF, Case, Evidence, Finding, tests_statement
 from springblock.study.claims.samples import on_each, over_runs, share_of, share_on_each
@@ -121,6 +121,13 @@ def strain_left(run: Record, minimum: int) -> tuple[Array, Array]:
     return left, strain.std(axis=1) / strain[minimum].std()
 
 
+def minimum_of(run: Run) -> int:
+    """Return the sample of the lowest force after the peak of the onset."""
+    force = run.force[run.onset]
+    peak = int(np.argmax(force))
+    return peak + int(np.argmin(force[peak:]))
+
+
 @tests_statement
 def residual_strains(evidence: Evidence) -> Iterator[Finding]:
     amount = "the standard deviation of the strain at {:.3g} µs, over that at the force minimum"
@@ -130,7 +137,7 @@ def residual_strains(evidence: Evidence) -> Iterator[Finding]:
         if not runs:
             continue
         times = runs[0].snapshot_times
-        minima = [run.time[first_minimum(run.force) or -1] for run in runs]
+        minima = [run.time[minimum_of(run)] for run in runs]
         minimum = int(np.abs(times - np.mean(minima)).argmin())
         left, scatter = np.array([strain_left(run, minimum) for run in runs]).transpose(1, 2, 0)
         before, after = times < min(run.t_max for run in runs), times > times[minimum]

@@ -14,14 +14,12 @@ from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import (
     PROMINENT,
     Peaks,
-    bootstrap_interval,
     both_peaks,
-    prominence,
+    prominence_of_mean,
 )
 from springblock.io.records import Record
 from springblock.model.direction import degrees
 from springblock.model.material import Material
-from springblock.model.numbers import Array
 from springblock.model.scene import Scene
 from springblock.simulation.run import Run
 from springblock.study.claims import rule, samples, surfaces
@@ -95,20 +93,10 @@ def prominent(
     case: Case | None = None,
     rank: int = 2,
 ) -> Finding:
-    """Return the prominence of the load peak of a rank in the mean force of all realisations.
-
-    A run that has ended counts with its last force, which lies below its peaks.
-    """
+    """Return the prominence of the load peak of a rank in the mean force of all realisations."""
     runs = evidence.records[scene]
-    longest = max(len(run.force) for run in runs)
-    forces = np.stack([np.pad(r.force, (0, longest - len(r.force)), mode="edge") for r in runs])
-
-    def of_mean(weights: Array) -> Array:
-        return np.array([prominence(curve, rank) for curve in weights @ forces])
-
-    value, low, high = map(float, bootstrap_interval(of_mean, len(runs)))
-    ends = min(low, value), max(high, value)  # fluctuations make the prominence of resamples larger
-    found = Estimate(value, *ends, len(runs), bounds=(0.0, 1.0))
+    value, low, high = map(float, prominence_of_mean(runs, rank))
+    found = Estimate(value, low, high, len(runs), bounds=(0.0, 1.0))
     return Finding(case or case_of(scene), statistic, found, claimed, [scene])
 
 
@@ -159,7 +147,7 @@ def twice_peaked(records: Records) -> dict[Scene, list[Twice]]:
     Scenes are grooved pillars that slide along their grooves, and were also slid across them.
     """
     found = {
-        scene: [(run, peaks) for run in runs if (peaks := both_peaks(run.force))]
+        scene: [(run, peaks) for run in runs if (peaks := both_peaks(run.force[run.onset]))]
         for scene, runs in slid_both_ways(records).items()
     }
     return {s: twice for s, twice in found.items() if len(twice) > 0.5 * len(records[s])}

@@ -129,7 +129,8 @@ def relative_lag(run: Run) -> float:
 
 def width(run: Run) -> float:
     """Return the time during which the force exceeds 95 % of its maximum, over t_max."""
-    samples = np.count_nonzero(run.force > _HIGH * run.force.max())
+    force = run.force[run.onset]
+    samples = np.count_nonzero(force > _HIGH * force.max())
     return float(samples * (run.time[1] - run.time[0]) / run.t_max)
 
 

@@ -43,14 +43,15 @@ def _realisations(declared: Figure, batches: Paths) -> list[Any]:
 
 
 def _tables(declared: Figure, tables: Paths) -> list[Any]:
-    if len(tables) != len(declared.tables):
+    names = declared.tables + (declared.also if declared.draws == "correlations" else ())
+    if not len(declared.tables) <= len(tables) <= len(names):
         raise ValueError(f"{len(tables)} files given; give {', '.join(declared.tables)}")
-    named = zip(declared.tables, tables, strict=True)
+    named = zip(names, tables, strict=False)
     return [read_as(name, table).to_pandas() for name, table in named]
 
 
 def _correlations(declared: Figure, tables: Paths, n_p: int) -> list[Any]:
-    return [*_tables(declared, tables), n_p]
+    return [n_p, *_tables(declared, tables)]
 
 
 _many = partial(click.argument, type=INPUT, nargs=-1, required=True)
@@ -71,7 +72,7 @@ _OUTPUTS = click.option(
 def _values(declared: Figure, data: list[Any]) -> dict[str, object]:
     """Return what a caption names of the data."""
     if declared.draws == "correlations":
-        return {name: span(data[0][name]) for name in ("n_blocks", "n_p")}
+        return {name: span(data[1][name]) for name in ("n_blocks", "n_p")}
     if declared.draws != "realisations":
         return {}
     samples = list(data[0].values()) if declared.keys else data

@@ -5,21 +5,26 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import product
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
+from numpy.typing import NDArray
 from tqdm import tqdm
 
 from springblock.analysis.statistics import prominence
 from springblock.io.rows import Row
 from springblock.io.schemas import SCENE, column, numbers, texts
 from springblock.model.material import Material
+from springblock.model.numbers import Array
 from springblock.model.surface import Surface
-from springblock.simulation.run import friction
+from springblock.simulation.prelude import compute_prelude
+from springblock.simulation.resolution import DECAY, ZONE
+from springblock.simulation.run import Run, friction
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
 from springblock.solver.integrators import limit
-from springblock.theory.layer import PLAIN, Groups, Square, stripe, with_springs
+from springblock.theory.layer import PLAIN, Cell, Groups, stripe, with_springs
 
 #: Standard deviation of mu_static under Coulomb friction. Without it, rounding decides which
 #: blocks slip together, and single runs differ by up to 0.01.
@@ -39,8 +44,12 @@ class Series:
     material: Material = PLAIN
     gap: float = 1.0  #: b/a
     widths: tuple[float, ...] = ()  #: in lambda, or in l_z of squares
+    sides: tuple[int, int] = (1, 1)  #: of pillars along sliding and across it, over their width
+    is_staggered: bool = False  #: whether every second row is shifted by half a period
+    wave: float = 0.0  #: of mu_static over its mean, one pillar long along sliding
     pillars: int = 1  #: along a side
     seeds: tuple[int, ...] = (0,)
+    step: float = 0.5  #: over the longest stable one
     predicted: bool = True
 
     @property
@@ -68,26 +77,45 @@ class Series:
 
     def prediction(self, n: int) -> float:
         """Return static friction of pillars of n blocks by the theory."""
-        groups, gap = self.groups, round(self.gap * n)
-        if self.is_square:
-            layer = self.material.thickness / self.material.spacing
-            excess = Square(n // 2, gap // 2, layer).excess(groups.residual, groups.kappa)
-        else:
-            unit = self.material.spacing / groups.decay
-            excess = stripe(n * unit, gap * unit, groups.residual, groups.kappa).excess
-        return groups.friction(excess)
+        groups, unit = self.groups, self.material.spacing / self.groups.decay
+        if not self.is_square:
+            gap = round(self.gap * n)
+            return groups.friction(stripe(n * unit, gap * unit, *groups.numbers).excess)
+        contact, strength = self.cell(n)
+        drop = 1.0 + (strength - 1.0) * (1.0 + groups.residual)
+        to_middle = [-side * n // 2 for side in reversed(self.sides)]  # of a pillar
+        contact, drop = np.roll(contact, to_middle, (0, 1)), np.roll(drop, to_middle, (0, 1))
+        quarter = np.s_[: contact.shape[0] // 2, : contact.shape[1] // 2]
+        layer = self.material.thickness / self.material.spacing
+        cell = Cell(contact[quarter], layer, drop[quarter])
+        return groups.friction(cell.excess(*groups.numbers))
 
     def setup(self) -> Setup:
-        """Return the setup, with half of the longest stable step."""
-        step = float(f"{0.5 * limit('leapfrog', self.material):.1g}")
+        """Return the setup, with its step rounded to a digit."""
+        step = float(f"{self.step * limit('leapfrog', self.material):.1g}")
         return Setup(self.material, step=step, sample_interval=20.0 * step)
 
+    def cell(self, n: int) -> tuple[NDArray[np.bool_], Array]:
+        """Return the contact of a periodic cell, and mu_static over its mean, (N_y, N_x).
+
+        Pillars are n blocks wide; stripes run along y.
+        """
+        x, y = (np.arange(side * (n + round(self.gap * n))) < side * n for side in self.sides)
+        contact = np.outer(y if self.is_square else 3 * [True], x)
+        if self.is_staggered:
+            contact = np.vstack([contact, np.roll(contact, len(x) // 2, axis=1)])
+        phase = (np.arange(len(x)) + 0.5) / (self.sides[0] * n) - 0.5
+        strength = 1.0 + self.wave * np.cos(2.0 * np.pi * phase)
+        return contact, np.broadcast_to(strength, contact.shape)
+
     def surface(self, n: int, seed: int) -> Surface:
-        """Return periodic cells with pillars or stripes of n blocks; stripes run along y."""
-        period = n + round(self.gap * n)
-        inside = np.arange(period * self.pillars) % period < n
-        contact = np.outer(inside if self.is_square else 3 * [True], inside)
-        return Surface.draw(contact, seed, self.material, periodic=True)
+        """Return periodic cells with pillars or stripes of n blocks."""
+        contact, strength = self.cell(n)
+        contact = np.tile(contact, (self.pillars, self.pillars))
+        drawn = Surface.draw(contact, seed, self.material, periodic=True)
+        if not self.wave:
+            return drawn
+        return Surface(contact, strength * drawn.mu_static, drawn.mu_dynamic, periodic=True)
 
 
 def _varied(shape: str) -> Iterator[Series]:
@@ -106,6 +134,12 @@ def _varied(shape: str) -> Iterator[Series]:
         yield Series(shape, f"b/a = {gap:g}", plain, gap)
     for factor in (0.5, 2.0):
         yield Series(shape, f"K_s x {factor:g}", with_springs(plain, math.sqrt(factor)))
+    if shape == "square":
+        other = partial(Series, shape, material=plain, widths=(3, 4, 6, 8, 10))
+        yield other("twice as long along sliding", sides=(2, 1))
+        yield other("twice as long across sliding", sides=(1, 2))
+        yield other("staggered", is_staggered=True)
+        yield other("mu_s with a wave of 10 %", wave=0.1)
 
 
 def _lattices() -> Iterator[Series]:
@@ -122,6 +156,18 @@ def _lattices() -> Iterator[Series]:
     for spacing, d_c in product((5e-6, 2.5e-6, 1.25e-6, 6.25e-7), (2e-8, 3e-8, 5e-8, 1e-7)):
         zone = replace(PLAIN, spacing=spacing, slip_distance=d_c)
         yield Series("across", "lattice", zone, widths=(4.0825, 6.532, 9.798))
+    for shape, mu_d in product(("across", "along"), (0.3, 0.6, 0.75)):
+        yield Series(shape, "lattice", _coarsest(shape, mu_d), widths=(4, 6, 10))
+
+
+def _coarsest(shape: str, mu_d: float) -> Material:
+    """Return a material at both limits of the rule of resolution for stripes."""
+    plain = replace(PLAIN, mu_dynamic=mu_d)
+    groups = Series(shape, material=plain).groups
+    spacing = groups.decay / DECAY
+    share = (2.0 * ZONE / (DECAY * math.pi)) ** 2  # kappa/(1 - kappa) where c_0 is ZONE l
+    d_c = plain.slip_distance * share / (1.0 + share) / groups.kappa
+    return replace(plain, spacing=spacing, slip_distance=d_c)
 
 
 def _healing() -> Iterator[Series]:
@@ -138,12 +184,14 @@ def _healing() -> Iterator[Series]:
 
 
 def _disorder() -> Iterator[Series]:
-    """Yield disorder of single blocks, and correlated over l_z."""
+    """Yield the paper's scatter and damping, and disorder that is correlated over l_z."""
     drawn = replace(PLAIN, spacing=2.5e-6, mu_static_std=0.1, mu_dynamic_std=0.05)
-    for kind, length in {"independent": 0.0, "correlated": 1e-5}.items():
-        material, sizes = replace(drawn, correlation_length=length), (2, 4, 6, 10, 15)
-        seeds = (0, 1, 2, 3)
-        yield Series("square", f"disorder, {kind}", material, 1.0, sizes, 2, seeds, predicted=False)
+    series = partial(Series, "square", predicted=False)
+    fast = replace(drawn, spacing=1.25e-6, gamma=Material.gamma, slider_velocity=2.5e-3)
+    own: dict[str, Any] = {"widths": (3, 4, 6, 8, 10, 15), "seeds": tuple(range(20)), "step": 0.8}
+    yield series("disorder, independent", fast, **own)
+    own = {"widths": (2, 4, 6, 10, 15), "seeds": (0, 1, 2, 3), "pillars": 2}
+    yield series("disorder, correlated", replace(drawn, correlation_length=1e-5), **own)
 
 
 SERIES = {
@@ -180,19 +228,22 @@ def measure(part: str) -> Iterator[Row]:
     for series in tqdm(SERIES[part.removeprefix("continuum-")], desc=part, unit="series"):
         for n in series.blocks:
             predicted = series.prediction(n) if series.predicted else math.nan
-            yield from (_row(series, n, seed, predicted) for seed in series.seeds)
+            setup, along = series.setup(), "y" if series.shape == "along" else "x"
+            contact = series.surface(n, 0).contact
+            prelude = compute_prelude(contact, setup, along, periodic=True)
+            for seed in series.seeds:
+                run = simulate(series.surface(n, seed), setup, along, prelude=prelude)
+                yield _row(series, n, seed, predicted, run)
 
 
-def _row(series: Series, n: int, seed: int, predicted: float) -> Row:
-    along = "y" if series.shape == "along" else "x"
-    run = simulate(series.surface(n, seed), series.setup(), along)
+def _row(series: Series, n: int, seed: int, predicted: float, run: Run) -> Row:
     last = int(np.argmax(run.force)) + 1
     return known(series, n) | {
         "seed": seed,
         "predicted": predicted,
         "simulated": run.static_friction,
         "switches": run.switches[:last].sum() / max(run.detachments[:last].sum(), 1),
-        "prominence": prominence(friction(run)),
+        "prominence": prominence(friction(run)[run.onset]),
     }
 
 

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from springblock.plotting import style
 from springblock.plotting.curves import FRICTION
 from springblock.plotting.style import BLACK, BLUE, GREEN, VERMILION, Look
-from springblock.theory.layer import stripe
+from springblock.theory.layer import KAPPA, MU_D, best_widths, stripe
 
 _MARKERS = {"across": "o", "along": "s", "square": "D"}
 _COLORS = (GREEN, BLUE, BLACK, VERMILION)
@@ -17,11 +17,11 @@ _WIDTHS = np.geomspace(1.0, 16.0, 31)
 
 
 def continuum_friction(table: pd.DataFrame) -> Figure:
-    """Draw friction a) of stripes over a/lambda and b) of squares over a/l_z, by kappa."""
+    """Draw friction a) of stripes and b) of squares over their width, by kappa; c) best widths."""
     drawn = table[table["what"].str.match("d_c|l_z")]
     kappas = sorted(drawn["kappa"].round(3).unique())
     colors = dict(zip(kappas, _COLORS, strict=False))
-    picture, (stripes, squares) = style.panels(style.DOUBLE, 78.0, "ab")
+    picture, (stripes, squares, best) = style.panels(style.DOUBLE, 78.0, "abc")
     for kappa, cells in drawn.groupby(drawn["kappa"].round(3)):
         color = colors[kappa]
         look: Look = {"color": color, "label": rf"$\kappa$ = {kappa:.2f}"}
@@ -38,9 +38,13 @@ def continuum_friction(table: pd.DataFrame) -> Figure:
     squares.set(xlabel="width of squares $a/l_z$", ylabel=FRICTION)
     for shape, words in (("across", "across"), ("along", "along sliding")):
         stripes.plot([], [], _MARKERS[shape], color=BLACK, label=words)
+    for mu_d, widths in zip(MU_D, best_widths(), strict=True):
+        best.plot(KAPPA, widths, label=rf"$\mu_d$ = {mu_d:g}")
+    best.set(xlabel=r"$\kappa$", ylabel=r"best width of stripes $a^*/\lambda$", xscale="log")
     for ax in (stripes, squares):
         ax.set_ylim(None, 1.05)
-        ax.legend(loc="upper right", ncols=2)
+    for ax in (stripes, squares, best):
+        ax.legend(loc="upper right", ncols=1 if ax is best else 2)
     return picture
 
 

@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from springblock.analysis.lowest import lowest
 from springblock.analysis.statistics import Interval, mean_interval
 from springblock.io.rows import Row, select
-from springblock.simulation.resolution import BLOCKS, LAYERS
+from springblock.simulation.resolution import DECAY, STIFFNESS, ZONE
 from springblock.study.continuum.cases import SCATTER, lowest_point
-from springblock.theory.layer import PLAIN, STIFFNESS, sharp_minimum
+from springblock.theory.layer import KAPPA, MU_D, PLAIN, best_widths, sharp_minimum
 
 #: First words of the series that the predictions are not for, and of those with the paper's gaps,
 #: springs and mean coefficients.
@@ -32,7 +33,7 @@ def values(cells: Sequence[Row]) -> dict[str, Any]:
     residual = PLAIN.mu_dynamic / (PLAIN.mu_static - PLAIN.mu_dynamic)
     return {
         **_agreement(plain),
-        **_zones(select(lattice, shape="across")),
+        **_zones([row for row in lattice if row["shape"] != "square"]),
         **_disordered([row for row in cells if row["what"].startswith("disorder")]),
         "usual": select(squares, what="d_c = 100 nm")[0],
         "span": sorted(row["place"] for row in squares if row["what"].startswith(_EVEN)),
@@ -49,8 +50,9 @@ def values(cells: Sequence[Row]) -> dict[str, Any]:
         "second": max(row["prominence"] for row in pawls),
         "sharp": [sharp_minimum(residual, kappa)[0] for kappa in (0.01, 0.1, 0.5)],
         "decay": {along: math.sqrt(ratio) for along, ratio in STIFFNESS.items()},
-        "blocks": BLOCKS,
-        "layers": LAYERS,
+        "zone": ZONE,
+        "lengths": DECAY,
+        **_best_widths(),
     }
 
 
@@ -116,21 +118,39 @@ def _refined(rows: Sequence[Row]) -> dict[str, Any]:
 def _zones(rows: Sequence[Row]) -> dict[str, Any]:
     """Return the largest difference from the theory by d_c and l, and by the rule of resolution."""
     found = []
-    for (zone, spacing, _), own in _by(rows, "process_zone", "spacing", "slip_distance").items():
-        fine = spacing <= own[0]["thickness"] / LAYERS and zone >= BLOCKS * spacing
-        found.append(own[0] | {"worst": max(row["apart"] for row in own), "fine": fine})
+    for own in _by(rows, "shape", "mu_dynamic", "slip_distance", "spacing").values():
+        row = own[0]
+        finest = min(row["process_zone"] / ZONE, row["decay"] / DECAY)
+        fine = row["spacing"] <= finest * (1.0 + 1e-9)
+        found.append(row | {"worst": max(each["apart"] for each in own), "fine": fine})
     worst = {fine: max(row["worst"] for row in select(found, fine=fine)) for fine in (True, False)}
     return {"zones": [row for row in found if math.isfinite(row["process_zone"])], "worst": worst}
 
 
 def _disordered(rows: Sequence[Row]) -> dict[str, Any]:
-    """Return mean friction by size for each kind of disorder, and where it is lowest."""
+    """Return mean friction by size, in µm, for each kind of disorder, and where it is lowest."""
     found = []
     for own in _by(rows, "what").values():
-        means = {
-            width: mean_interval([row["simulated"] for row in each])
+        samples = {
+            round(1e6 * width): np.array([row["simulated"] for row in each])
             for (width,), each in _by(own, "width").items()
         }
-        best = min(means, key=lambda width: float(means[width].mean))
-        found.append(own[0] | {"means": means, "best": best})
-    return {"disorder": found, "seeds": len(_by(rows, "seed"))}
+        means = {width: mean_interval(each) for width, each in samples.items()}
+        seeds = len(_by(own, "seed"))
+        switched = max(row["switches"] for row in own)
+        kind = {"means": means, "best": lowest(samples), "seeds": seeds, "switched": switched}
+        found.append(own[0] | kind)
+    widths = sorted({width for each in found for width in each["means"]})
+    return {"disorder": found, "widths": widths}
+
+
+def _best_widths() -> dict[str, Any]:
+    """Return the best widths of the theory, and their spread over mu_d where it is small."""
+    best, kappa, mu_d = best_widths(), 2.0, 0.75
+    settled = best[np.array(MU_D) <= mu_d][:, np.array(KAPPA) >= kappa]
+    return {
+        "best": (best.min(), best.max()),
+        "settled": {"kappa": kappa, "mu_d": mu_d, "apart": np.ptp(settled, axis=0).max()},
+        "mu_d": MU_D,
+        "kappa": KAPPA,
+    }

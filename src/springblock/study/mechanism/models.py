@@ -11,6 +11,9 @@ sticking       The block slips between neighbours at rest until its force is mu_
                first, while the slider does not move, until no block exceeds its threshold.
 overshooting   The same, but the block slips as without damping, until its force is as far below
                mu_d F_n as it was above, (2 mu_d - mu_s) F_n.
+collective     All blocks of an avalanche slip at once between the others at rest, until the force
+               on each is as far below mu_d F_n as it was above, and stick again. An avalanche grows
+               by the blocks that this overloads. Energy is conserved, as without damping.
 
 The friction force is the component of F_mot along x, the direction of the slider; the friction of
 sliding blocks acts along x.
@@ -103,6 +106,30 @@ def overshooting(layer: Layer, static: Array, dynamic: Array) -> Curve:
     """Let blocks overshoot their dynamic friction and stick again."""
     strength = np.maximum(static, dynamic)
     return _stick_slip(layer, strength, 2.0 * dynamic - strength)
+
+
+def collective(layer: Layer, static: Array, dynamic: Array) -> Curve:
+    """Let the blocks of an avalanche overshoot their dynamic friction together."""
+    k, strength = len(static), np.maximum(static, dynamic)
+    held = np.minimum(dynamic, (1.0 - _LEAST_DROP) * strength)
+    force, slipped, s = np.zeros((2, k)), np.zeros(k, bool), 0.0
+    pull, found = layer.pull.reshape(2, k), []
+    while not slipped.all():
+        reached = _slider_at(strength, layer.pull, force.ravel() - s * layer.pull, s)
+        begins = int(np.argmin(reached))
+        force += (reached[begins] - s) * pull
+        s = reached[begins]
+        found.append((s, force[0].sum()))
+        slips, overloaded, after = np.zeros(k, bool), np.arange(k) == begins, force
+        while overloaded.any():
+            slips |= overloaded
+            both = np.tile(slips, 2)
+            drop = 2.0 * force[:, slips] * (1.0 - held[slips] / np.hypot(*force[:, slips]))
+            slip = np.linalg.solve(layer.stiffness[np.ix_(both, both)], drop.ravel())
+            after = force - (layer.stiffness[:, both] @ slip).reshape(2, k)
+            overloaded = ~slips & (np.hypot(*after) > (1.0 + _SLACK) * strength)
+        force, slipped = after, slipped | slips
+    return Curve(*np.array(found).T)
 
 
 #: The models by name, each with one effect more than the one before.

@@ -10,6 +10,7 @@ from springblock.analysis.lowest import Lowest, lowest
 from springblock.analysis.statistics import Interval, mean_interval
 from springblock.io.rows import Row
 from springblock.model.material import Material
+from springblock.study.mechanism.sensitivities import SIZE
 
 #: Names of the models in words, each with one effect more than the one before.
 NAMES = {
@@ -21,9 +22,16 @@ NAMES = {
 }
 
 
-def values(models: list[Row], strong: list[Row], settings: list[Row]) -> dict[str, Any]:
+def values(
+    models: list[Row],
+    strong: list[Row],
+    springs: list[Row],
+    grooves: list[Row],
+    settings: list[Row],
+) -> dict[str, Any]:
     """Return what the template names, from the rows of the tables."""
-    friction, damped, sensitivities = map(pd.DataFrame, (models, strong, settings))
+    tables = map(pd.DataFrame, (models, strong, springs, settings))
+    friction, damped, other, sensitivities = tables
     sizes = friction.groupby("n_p")
     plain = sensitivities[sensitivities["edges"] == "free"]
     damping = sensitivities[sensitivities["varied"].isin(["", "gamma", "edges"])]
@@ -38,6 +46,20 @@ def values(models: list[Row], strong: list[Row], settings: list[Row]) -> dict[st
             for of, to in pairwise(NAMES)
         },
         "minimum": {name: _minimum(friction, name) for name in NAMES},
+        "springs": {
+            f"{(Material.thickness / rows['thickness'].iloc[0]) ** 2:.2g}": {
+                "minimum": {name: _minimum(rows, name) for name in NAMES},
+                "uneven": rows[rows["n_p"] == SIZE]["stress_variation"].iloc[0],
+            }
+            for _, rows in other.groupby("thickness")
+        },
+        "grooves": {
+            row["model"]: [
+                Interval(row[name], row[f"{name}_low"], row[f"{name}_high"])
+                for name in ("static_friction", "prominence")
+            ]
+            for row in grooves
+        },
         "damped": {gamma: _of_damping(rows) for gamma, rows in damped.groupby("gamma")},
         "settings": _grouped(plain, "varied", "value")
         | _grouped(sensitivities[sensitivities["varied"] == "edges"], "varied", "value"),

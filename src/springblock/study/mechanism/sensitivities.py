@@ -113,7 +113,7 @@ def _quantities(surfaces: Mapping[Scene, Sequence[Record]]) -> Iterator[tuple[st
     for scene, runs in surfaces.items():
         if scene.n_p2:
             name = "prominence" if scene.n_p else "prominence_whole"
-            yield name, mean_interval([prominence(friction(run)) for run in runs])
+            yield name, mean_interval([prominence(friction(run)[run.onset]) for run in runs])
         else:
             pillars.setdefault(scene.n_blocks, {})[scene.n_p] = runs
     if not pillars:

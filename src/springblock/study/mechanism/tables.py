@@ -1,14 +1,17 @@
 """Columns and rows of the tables of the page."""
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 import pyarrow as pa
 from tqdm import tqdm
 
+from springblock.analysis.statistics import bootstrap_interval, mean_interval, prominence
 from springblock.io.identity import identity
-from springblock.io.rows import Row
-from springblock.io.schemas import SCENE, column, numbers
+from springblock.io.rows import Row, limits
+from springblock.io.schemas import SCENE, column, numbers, texts
+from springblock.model.numbers import Array
 from springblock.model.scene import Scene
 from springblock.model.surface import Surface
 from springblock.simulation.prelude import compute_prelude
@@ -36,6 +39,65 @@ FRICTION = pa.schema(
         ),
     ]
 )
+
+
+#: Models that are compared on grooves, where load transfer without inertia takes minutes.
+ON_GROOVES = ("sticking", "overshooting", "collective", "simulation")
+#: Share of the largest force below which the main drop has come, and points of a force curve.
+_DROPPED, _POINTS = 0.92, 1000
+
+GROOVES = pa.schema(
+    [
+        *texts(model=f"one of {', '.join(ON_GROOVES)}"),
+        *numbers(
+            "1",
+            static_friction="mean static friction",
+            static_friction_low="lower limit of its 95 % interval",
+            static_friction_high="upper limit",
+            prominence="prominence of the second load peak up to the main drop, over the largest "
+            "force, of the mean force at equal displacements of the slider",
+            prominence_low="lower limit of its 95 % interval",
+            prominence_high="upper limit",
+        ),
+    ]
+)
+
+
+def measure_grooves(part: str) -> Iterator[Row]:
+    """Yield one row per model for sliding along grooves."""
+    (surface,) = PARTS[part]
+    setup, contact = setup_of(surface), surface.contact
+    layer, normal_force = Layer(contact, setup.material), setup.material.block_load * contact.size
+    load = normal_force / np.count_nonzero(contact)
+    curves: dict[str, list[models.Curve]] = {name: [] for name in ON_GROOVES}
+    for seed in tqdm(range(SEEDS), desc=str(surface), unit="seed"):
+        drawn = Surface.draw(contact, seed, setup.material)
+        forces = [load * mu[contact] for mu in (drawn.mu_static, drawn.mu_dynamic)]
+        run = simulate(drawn, setup, surface.direction)
+        slider = setup.material.slider_velocity * run.time
+        curves["simulation"].append(models.Curve(slider, run.force))
+        for name in ON_GROOVES[:-1]:
+            curves[name].append(getattr(models, name)(layer, *forces))
+    for name, found in curves.items():
+        friction = mean_interval([curve.force.max() / normal_force for curve in found])
+        peaks = bootstrap_interval(partial(_dips, _on_a_grid(found)), SEEDS)
+        yield {"model": name} | limits("static_friction", friction) | limits("prominence", peaks)
+
+
+def _on_a_grid(curves: list[models.Curve]) -> Array:
+    """Return forces at equal displacements of the slider, as far as all curves go, (k, n)."""
+    grid = np.linspace(0.0, min(curve.slider[-1] for curve in curves), _POINTS)
+    return np.array([np.interp(grid, *curve) for curve in curves])
+
+
+def _dips(forces: Array, weights: Array) -> Array:
+    """Return the prominence in weighted means of forces up to the main drop, (b,)."""
+    found = []
+    for curve in weights @ forces:
+        peak = int(np.argmax(curve))
+        end = peak + int(np.argmax(np.append(curve[peak:], 0.0) < _DROPPED * curve[peak]))
+        found.append(prominence(curve[: end + 1]))
+    return np.array(found)
 
 
 def measure(part: str) -> Iterator[Row]:

@@ -16,7 +16,7 @@ from springblock.model.numbers import Array
 from springblock.model.scene import CONSTANTS
 from springblock.plotting import curves, maps, style
 from springblock.plotting.style import BLACK, BLUE, FORCE, GREY, MICRO, VERMILION, Look
-from springblock.simulation.run import Run, friction
+from springblock.simulation.run import Run
 
 if TYPE_CHECKING:  # read by the command, and only then
     import pandas as pd
@@ -36,6 +36,7 @@ _IN_TIME = (0, 2, 3, 6, 10, 20, 30, 60)  #: n_p in the curves of figure 6: the p
 _SMALL: Look = {"markersize": 1.8, "capsize": 2.2}  #: smaller than most intervals
 _SIZE = "size of the pillars $n_p$ (blocks)"
 _FLOOR = 0.01  #: %, where the logarithmic axis of detachments begins in figure 6
+_PAPERS_LENGTH = 3.0  #: blocks, l_c of the paper for n_p of 20 or more
 _LEAST = 0.01  #: c(r) at the foot of the logarithmic axis in figure 7
 _SIDES: dict[str, Look] = {
     "x": {"color": BLUE, "marker": "D", "linestyle": "none"},
@@ -62,7 +63,7 @@ def figure_2(runs: Sequence[Run]) -> Figure:
         curves.draw_run(upper, lower, run, others, span)
     force, _, blocks, enlarged = panels
     for ax, name in ((force, "enlarged at the right"), (blocks, None)):
-        ax.axvspan(*zoom, color="0.93", linewidth=0.0, zorder=0, label=name)
+        ax.axvspan(*zoom, facecolor="none", edgecolor=BLACK, linestyle=":", zorder=0, label=name)
     style.legend_above(picture, force, blocks, ncols=4)
     end, height, before = MICRO * run.t_max, 6.0, MICRO * _BEFORE
     maps.arrow(enlarged, (end, height), (end - 0.8 * before, height))
@@ -179,11 +180,17 @@ def _draw_flat(ax: Axes, sample: Array) -> None:
     ax.annotate("flat", (0.45, mean), (0.0, -2.0), ax.get_yaxis_transform(), **below)
 
 
-def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame", n_p: int) -> Figure:
+def figure_7(
+    n_p: int,
+    correlation: "pd.DataFrame",
+    lengths: "pd.DataFrame",
+    edges: "pd.DataFrame | None" = None,
+) -> Figure:
     """Draw a) c_x(r) and c_y(r) for one n_p, b) with their fits, and c) their lengths over n_p.
 
-    `correlation` and `lengths` are tables of the schemas CORRELATION and CORRELATION_LENGTH. Drawn
-    are square pillars with equal gaps on the surface that comes first, with the study's constants.
+    `correlation`, `lengths` and `edges` are the tables correlation, correlation_length and
+    precursors. Drawn are square pillars with equal gaps on the surface that comes first, with the
+    study's constants.
     """
     correlation, lengths = _equal_gaps(correlation), _equal_gaps(lengths)
     correlation = correlation[correlation["n_p"] == n_p]
@@ -199,18 +206,31 @@ def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame", n_p: int) -> 
             curves.draw_band(ax, part["r"], values, **look)
         fits: Any = shown.loc[str(side)]
         _draw_fits(log, str(side), curve, fits)
+    if edges is not None:
+        _draw_chain(log, edges)
     linear.axhline(0.0, **curves.ZERO)
     log.plot([], [], color=GREY, label=_EXPONENTIAL)
     log.plot([], [], color=GREY, label=_FREE, **_DASHED)
     log.set(yscale="log", ylim=(_LEAST, 1.1))
+    log_end = 1.0 + correlation["r"][correlation["ci_low"] > 0.0].max()
     log.yaxis.set_major_formatter("{x:g}")
     for ax in (linear, log):
         ax.set(xlabel="distance along the side $r$ (blocks)", ylabel="time correlation $c(r)$")
-        ax.set_xlim(0.0, None)
+        ax.set_xlim(0.0, log_end if ax is log else None)
         ax.xaxis.set_major_locator(MaxNLocator(integer=True, steps=[1, 2, 5, 10]))
     _draw_lengths(sizes, lengths[lengths["side"] == "x"])
+    sizes.axhline(_PAPERS_LENGTH, color=GREY, linestyle=":", zorder=0)
     style.legend_above(picture, log, sizes, ncols=6)
     return picture
+
+
+def _draw_chain(ax: Axes, edges: "pd.DataFrame") -> None:
+    """Draw c(r) of the chain on edges along x and y, where it exceeds the foot of the axis."""
+    paper = edges[(edges["what"] == "paper") & edges["quantity"].str.match(r"c_\d+$")]
+    for edge, side in (("along", "x"), ("across", "y")):
+        part = paper[(paper["edge"] == edge) & (paper["predicted"] > _LEAST)]
+        r = part["quantity"].str.removeprefix("c_").astype(int)
+        ax.plot(r, part["predicted"], "x", color=BLACK, label="chain" if side == "x" else None)
 
 
 def _equal_gaps(table: "pd.DataFrame") -> "pd.DataFrame":
@@ -246,11 +266,11 @@ def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
 def figure_9(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
     """Draw force and detachments on grooved pillars, a row for each pattern, with the same axes.
 
-    Rows in descending order of their clearest second load peak.
+    Rows in descending order of the clearest second load peak of the mean force.
     """
     found = {key: statistics.whole_curve(runs) for key, runs in sorted(ensembles.items())}
-    falls = {key: [statistics.prominence(friction(run)) for run in ensembles[key]] for key in found}
-    clearest = sorted(falls, key=lambda key: -np.mean(falls[key]))
+    falls = {key: statistics.prominence_of_mean(ensembles[key]) for key in found}
+    clearest = sorted(falls, key=lambda key: -float(falls[key].mean))
     rows = list(dict.fromkeys(key[:-1] for key in clearest))
     letters = [ascii_lowercase[2 * i : 2 * i + 2] for i in range(len(rows))]
     look: Look = {"width_ratios": (95, 57), "sharex": True}
@@ -261,16 +281,18 @@ def figure_9(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
         for direction, curve in [(key[-1], found[key]) for key in found if key[:-1] == row]:
             color, name = _WAYS.get(direction, (style.GREEN, f"at {direction}° to grooves"))
             curves.draw_single_forces(force, curve, color)
-            curves.draw_load_peaks(force, curve, color, name)
+            curves.draw_mean_force(force, curve, color, name)
             curves.draw_detachments(blocks, curve, color)
+            curves.draw_load_peaks(force, blocks, ensembles[*row, direction], color)
             told.append(f"{name.removesuffix(' grooves')} {_percent(falls[*row, direction])}")
         force.set_ylabel(FORCE)
-        named = f"{_pattern_name(row)}: force falls between its peaks by"
+        named = f"{_pattern_name(row)}: mean force falls between its peaks by"
         force.set_title("\n".join([named, ", ".join(told)]), loc="right", fontsize="medium")
         force.sharey(panels[0])
         blocks.sharey(panels[1])
     _fit_forces(panels[0], list(found.values()))
-    panels[1].set_ylim(0.0, 1.04 * max(ax.dataLim.y1 for ax in panels[1::2]))
+    panels[1].set(yscale="log", ylim=(_FLOOR, 100.0))
+    panels[1].yaxis.set_major_formatter("{x:g}")
     for ax in panels[-2:]:
         ax.set_xlabel("time (µs)")
     peak: Look = {"marker": "v", "linestyle": "none", "label": "load peak of the mean"}
@@ -292,10 +314,10 @@ def _pattern_name(pattern: tuple[int, int, int, int, str]) -> str:
     return ", ".join(levels) + (f", cut along {along_3}" if along_3 else "")
 
 
-def _percent(shares: Sequence[float]) -> str:
-    """Return the mean of shares in percent and, of several, its interval."""
-    mean, low, high = statistics.mean_interval(style.PERCENT * np.array(shares))
-    return f"{mean:.1f} %" + (f" [{low:.1f}, {high:.1f}]" if len(shares) > 1 else "")
+def _percent(share: Interval) -> str:
+    """Return a share in percent, with its interval if it has one."""
+    mean, low, high = (style.PERCENT * float(each) for each in share)
+    return f"{mean:.1f} %" + (f" [{low:.1f}, {high:.1f}]" if np.isfinite(low) else "")
 
 
 def _fit_forces(ax: Axes, every: Sequence[LoadCurves]) -> None:

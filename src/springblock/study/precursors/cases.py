@@ -1,5 +1,6 @@
 """Periodic stripes: first detachments beside their edges, by the theory and in the simulation."""
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -20,13 +21,7 @@ from springblock.simulation.prelude import compute_prelude
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
 from springblock.solver.integrators import limit
-from springblock.theory.chain import (
-    Edge,
-    avalanche_length,
-    damped_loads,
-    first_loads,
-    one_sided_correlation,
-)
+from springblock.theory.chain import Edge, damped_loads, first_loads
 from springblock.theory.correlation import EdgeCorrelation, reach
 from springblock.theory.front import Front
 from springblock.theory.layer import PLAIN, with_springs
@@ -37,7 +32,7 @@ Measured = dict[str, Interval]
 SHAPES = ("along", "across")  #: of edges, to the sliding direction
 PAPER = Material()
 #: Distances of c(r): in blocks, and along fronts in m.
-BLOCKS, DISTANCES = (1, 2, 3, 6), (5e-6, 1e-5, 1.5e-5, 2e-5)
+BLOCKS, DISTANCES = range(1, 7), (5e-6, 1e-5, 1.5e-5, 2e-5)
 WIDTH = 8e-5  #: m of stripes and gaps under slip weakening
 _LONG, _WIDE = 120, 10  #: blocks along an edge and across a stripe under Coulomb friction
 #: Seeds of the chain, chains of a seed, and of a sample, whose differences give errors.
@@ -102,12 +97,9 @@ class Avalanches(Stripe):
         return Edge.of(self.material, self.shape, self.wide, self.wide)
 
     @property
-    def exact(self) -> Row:
-        """T₁, the length of an avalanche, and c(r) of the chain that hands on to one side."""
-        share = float(self.edge.transfer[0])
-        c = one_sided_correlation(self.material, share, np.array(BLOCKS))
-        named = {f"one_sided_{r}": float(each) for r, each in zip(BLOCKS, c, strict=True)}
-        return {"t_1": share, "length": avalanche_length(self.material, share), **named}
+    def handed(self) -> float:
+        """T₁, of its drop, that a block hands on to its neighbour."""
+        return float(self.edge.transfer[0])
 
     def predicted(self, seeds: int = _SEEDS) -> Measured:
         """Return `of_times` of the chain, whose loads stand for times."""
@@ -137,6 +129,8 @@ class Avalanches(Stripe):
 
 class Passage(Stripe):
     """A stripe under slip weakening, whose front passes the first row beyond a depth of l_z."""
+
+    handed = math.nan  #: nothing drops
 
     @property
     def depth(self) -> float:
@@ -221,6 +215,7 @@ PRECURSORS = pa.schema(
             "blocks; load: mean load of detachment over that of a block far from edges; reach: "
             "distance in m where c is 1/e; scatter: standard deviation over mean of the load",
         ),
+        *numbers("1", t_1="share of its drop that a block hands to its neighbour; NaN of fronts"),
         *numbers(
             "of its quantity: 1, blocks or m",
             predicted="by the theory",
@@ -238,24 +233,8 @@ def measure(part: str) -> Iterator[Row]:
     """Yield the rows of a part of `CELLS` as they are computed."""
     for cell in tqdm(CELLS[part], desc=part, unit="cell"):
         predicted = cell.predicted()
-        known = cell.setup.constants | {"edge": cell.shape, "what": cell.what, "seeds": cell.seeds}
+        known = cell.setup.constants | {"edge": cell.shape, "what": cell.what}
+        known |= {"seeds": cell.seeds, "t_1": cell.handed}
         for quantity, found in cell.simulated().items():
             theory = {"quantity": quantity, "predicted": float(predicted[quantity].mean)}
             yield known | theory | limits("simulated", found)
-
-
-def predictions() -> dict[str, list[Row]]:
-    """Return the rows of `chain.csv` and `front.csv` in `docs/registration`; takes minutes."""
-    chain = []
-    for cell in tqdm(AVALANCHES, unit="cell"):
-        row = {"edge": cell.shape, "what": cell.what} | cell.exact
-        for name, found in cell.predicted().items():
-            row |= limits(name, found)
-        chain.append(row)
-    front = []
-    for each in PASSAGES:
-        row = {"edge": each.shape, "spacing": each.material.spacing}
-        row |= {"xi": each.material.correlation_length}
-        row |= {"slip_distance": each.material.slip_distance, "depth": each.depth}
-        front.append(row | {name: float(one.mean) for name, one in each.predicted().items()})
-    return {"chain": chain, "front": front}

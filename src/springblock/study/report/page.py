@@ -12,7 +12,7 @@ import pyarrow as pa
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from springblock.analysis.ensembles import Ensemble, constants, ensembles
+from springblock.analysis.ensembles import Ensemble, constants, doubts, ensembles
 from springblock.analysis.means import UNITS, changes_from_first, in_words, means
 from springblock.io.parquet import load, origin_of
 from springblock.io.rows import Row, alike
@@ -78,6 +78,7 @@ def _of_own(members: Sequence[Ensemble]) -> dict[str, Any]:
     changes = changes_from_first(members, ["static_friction"])
     return {
         "changes": _spaced(changes) if changes else (),
+        "doubts": doubts(members),
         "common": [
             f"{name} = {value} {UNITS.get(name, '')}".strip()
             for name, value in constants(members).items()

@@ -37,7 +37,8 @@ SCHEMA = pa.schema(
             "omega² = K_s/m; scatter: standard deviation of mu_s, twice that of mu_d; "
             "coefficients: mu_d/mu_s; speed: v K_s/(F_n omega); load: strain of the springs; "
             "weakening: (mu_s - mu_d) F_n over K_s d_c or m omega v_c; "
-            "size: N; overflow: the value that overflows",
+            "rupture front: (tau_0 - mu_d)/(mu_s - mu_d); size: N; "
+            "overflow: the value that overflows",
         ),
         *texts(expected="required outcome", outcome="outcome"),
         *numbers(
@@ -61,6 +62,7 @@ FAMILIES = (
     surfaces.stiffnesses,
     one_block.weakenings,
     surfaces.loads,
+    surfaces.fronts,
     surfaces.sizes,
     surfaces.overflows,
 )

@@ -82,9 +82,9 @@ class Pull:
         return self.material.slider_velocity / speed_unit(self.material)
 
     def simulate(self, surface: Surface, count: int | None = None, every: int = 0) -> Realisation:
-        """Take `count` steps, by default until all slide; sample at the end or each `every`."""
-        every = every or count or 5
-        setup = Setup(self.material, self.integrator, self.step, every * self.step)
+        """Take `count` steps, by default until all slide; sample each `every`."""
+        interval = (every or 1) * self.step if every or count else None
+        setup = Setup(self.material, self.integrator, self.step, interval)
         return simulate(surface, setup, duration=count and count * self.step)
 
     def keeps_energy(self, run: Realisation) -> bool:

@@ -19,6 +19,8 @@ PILLARS = Surface.draw(Pattern.pillars(8, 2, 2).contact, SEED)
 OVERDAMPED = Material(gamma=10.0 * PAPER.omega_max, slider_velocity=5e-3)
 #: Ten times the paper's pressure, on a quarter of the blocks: they slip by 0.27 l.
 HEAVY = pulled_at(1e-3, replace(PAPER, pressure=10.0 * PAPER.pressure))
+#: Blocks of the row in which a rupture front runs, and those of its weak end.
+ROW, WEAK = 200, 10
 FIRST = "first detachment, F_n/(K_s v)"
 DISPLACEMENT = "displacement, l"
 #: Displacement of the free column by the reference solution (`benchmarks/reference.py`), l, for
@@ -103,6 +105,35 @@ def loads(integrator: str) -> Iterator[Case]:
     for strain, what in ((2.0, "stretched until it bursts"), (-1.0, "squeezed until it collapses")):
         attempt = partial(broken_column, strain=strain)
         yield case(f"column {what}", abs(strain), "none", attempt, "raises")
+
+
+def fronts(integrator: str) -> Iterator[Case]:
+    """Yield rupture fronts in a chain, by the prestress."""
+    case = partial(Case, "rupture front", integrator)
+    for prestress in (0.5, 0.7, 0.9):
+        name, attempt = f"prestress {prestress:g}", partial(rupture_front, prestress=prestress)
+        yield case(name, prestress, "speed of a rupture front, l sqrt(K_int/m)", attempt)
+
+
+def rupture_front(integrator: str, prestress: float) -> Outcome:
+    """Compare the speed of a rupture front in the second half of a row with its closed form.
+
+    1/sqrt(1 - tau²) with tau = (tau_0 - mu_d)/(mu_s - mu_d), derived in
+    `tests/validation/test_fronts.py`; tau_0 is the pull of the slider as the front passes.
+    """
+    material = pulled_at(0.1, layer(1e-7, 1e-3))
+    pull = Pull.at(0.05, integrator, material)
+    mu_s, mu_d = 1.0, 0.6
+    strength = np.full((1, ROW), mu_s)
+    strength[0, :WEAK] = mu_d + prestress * (mu_s - mu_d)
+    passage = ROW * math.sqrt(material.k_s / material.k_int)  # at the speed of waves, 1/omega
+    count = math.ceil((strength[0, 0] / pull.speed + passage) / pull.h)
+    run = pull.simulate(Surface(np.ones((1, ROW), bool), strength, mu_d), count)
+    half, last = run.t_det[0, [ROW // 2, -1]]
+    speed = (ROW - 1 - ROW // 2) / (last - half) * math.sqrt(material.mass / material.k_int)
+    tau_0 = pull.speed * material.omega_min * (half + last) / 2.0
+    tau = (tau_0 - mu_d) / (mu_s - mu_d)
+    return pull.judge(run, speed, 1.0 / math.sqrt(1.0 - tau**2), 3e-3)
 
 
 def layer(ratio: float, strain: float) -> Material:

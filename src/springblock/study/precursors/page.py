@@ -1,0 +1,49 @@
+"""Values of the page on slip precursors."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from springblock.analysis.statistics import Interval
+from springblock.io.rows import Row, select
+
+ACCEPTED = 0.1  #: relative difference of l_c from which the interval decides
+
+
+def values(rows: Sequence[Row]) -> dict[str, Any]:
+    """Return what the template names, from the rows of the table `precursors`."""
+    lengths = [row for row in select(rows, quantity="l_c") if row["simulated"] == row["simulated"]]
+    apart = [row for row in lengths if not _agrees(row)]
+    fronts = [row for row in rows if row["quantity"].endswith("_um")]
+    fine = [row for row in fronts if row["spacing"] < 3e-6]
+    return {
+        "paper": {edge: _of_paper(rows, edge) for edge in ("along", "across")},
+        "lengths": [row | {"found": _interval(row)} for row in lengths],
+        "together": [row for row in select(rows, quantity="l_c") if row not in lengths],
+        "agreeing": len(lengths) - len(apart),
+        "apart": [row | {"found": _interval(row)} for row in apart],
+        "furthest": max(fine, key=_difference),
+        "difference": max(map(_difference, fine)),
+        "coarse": max(map(_difference, (row for row in fronts if row not in fine))),
+        "reaches": [row | {"found": _interval(row)} for row in select(rows, quantity="reach")],
+        "scatters": [row | {"found": _interval(row)} for row in select(rows, quantity="scatter")],
+    }
+
+
+def _of_paper(rows: Sequence[Row], edge: str) -> dict[str, Row]:
+    """Return the rows of an edge with the paper's constants by quantity."""
+    found = select(rows, edge=edge, what="paper")
+    return {row["quantity"]: row | {"found": _interval(row)} for row in found}
+
+
+def _interval(row: Row) -> Interval:
+    return Interval(row["simulated"], row["simulated_low"], row["simulated_high"])
+
+
+def _agrees(row: Row) -> bool:
+    """Whether the prediction lies in the interval, or within 10 % of the simulation."""
+    within = row["simulated_low"] <= row["predicted"] <= row["simulated_high"]
+    return within or abs(row["predicted"] - row["simulated"]) <= ACCEPTED * row["predicted"]
+
+
+def _difference(row: Row) -> float:
+    return float(abs(row["simulated"] - row["predicted"]))

@@ -1,0 +1,63 @@
+"""Refinement: the same surface on finer lattices, and what its friction is said to do."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from springblock import Material, Pattern, Setup, Texture, refine
+from springblock.analysis import refine as module
+from springblock.analysis.refine import Refined
+from springblock.analysis.statistics import mean_interval
+
+
+class Made(list):
+    """Runs with the given static friction."""
+
+    def means(self):
+        return {"static_friction": mean_interval([run.static_friction for run in self])}
+
+
+def refined(*means, scatter=1e-3):
+    offsets = scatter * np.array([-1.0, 0.0, 1.0])
+    runs = [Made(SimpleNamespace(static_friction=m + d) for d in offsets) for m in means]
+    return Refined([1e-5 / 2**i for i in range(len(means))], runs)
+
+
+@pytest.mark.parametrize(
+    ("means", "scatter", "word"),
+    [
+        ((0.70, 0.65, 0.62), 1e-3, "not converged"),
+        ((0.70, 0.66, 0.659), 1e-3, "converged within 1 %"),
+        ((0.70, 0.66, 0.659), 1e-2, "not settled"),
+        ((0.66, 0.655, 0.60), 1e-2, "not converged"),
+    ],
+)
+def test_friction_has_converged_where_halving_the_spacing_changes_less_than_a_percent(
+    means, scatter, word
+):
+    assert refined(*means, scatter=scatter).verdict.startswith(word)
+
+
+def test_the_observed_order_is_that_of_the_changes():
+    assert refined(1.0 + 0.16, 1.0 + 0.04, 1.0 + 0.01).order == pytest.approx(2.0)
+    assert np.isnan(refined(0.7, 0.68, 0.64).order)
+
+
+@pytest.mark.parametrize(
+    "surface", [Pattern.pillars(12, 3, 3), Texture("squares", 4e-5, 8e-5, 1.6e-4, 1e-5)]
+)
+def test_lengths_in_metres_are_those_of_the_first_lattice(surface, monkeypatch):
+    """The mask, the disorder, and steps in units of the stability limit."""
+    taken = []
+    monkeypatch.setattr(module, "ensemble", lambda *given, **_: taken.append(given))
+    refine(surface, Setup(Material(thickness=2e-5)), levels=3)
+    masks = [np.asarray(mask) for mask, *_ in taken]
+    setups = [setup for _, setup, *_ in taken]
+    for parts, mask, setup in zip((1, 2, 4), masks, setups, strict=True):
+        np.testing.assert_array_equal(mask, np.kron(masks[0], np.ones((parts, parts), bool)))
+        assert setup.material.spacing * len(mask) == pytest.approx(1e-5 * len(masks[0]))
+        assert setup.material.correlation_length == 1e-5
+        assert setup.material.thickness == 2e-5
+        limit = setups[0].step * setups[0].material.omega_max
+        assert setup.step * setup.material.omega_max == pytest.approx(limit, rel=0.1)
