@@ -1,5 +1,6 @@
 """Any observable over anything that tells ensembles apart."""
 
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -116,6 +117,12 @@ def test_axes_are_numbers_in_which_two_scenes_differ_that_are_otherwise_alike():
     assert axes(pillars) == ["n_p", "direction"]
     assert axes([at(s) for s in SPEEDS]) == ["slider_velocity"]
     assert axes([Scene(120), Scene(120, 6, 6)]) == []
+
+
+def test_without_seaborn_a_sentence_asks_for_it(two_lines, monkeypatch):
+    monkeypatch.setitem(sys.modules, "seaborn", None)
+    with pytest.raises(ModuleNotFoundError, match="pip install seaborn"):
+        lines(two_lines, "slider_velocity")
 
 
 @pytest.mark.parametrize(

@@ -97,10 +97,9 @@ class Kernel:
         fields = [unpadded(field, self.constants.grid) for field in blocks]
         ux, uy, vx, vy, t_det = (np.array(field) for field in fields[:5])
         if isinstance(law, FromFile):
-            names, kept = self.material.law.initial, law.state.T[:, : len(blocks.ux)]
+            names, kept = self.material.law.initial, law.now.T
         else:
-            slip = getattr(law, "slip", np.zeros(len(blocks.ux)))[: len(blocks.ux)]
-            names, kept = ["slip"], [spacing * slip]
+            names, kept = ["slip"], [spacing * getattr(law, "slip", np.zeros(len(blocks.ux)))]
         joule = m.mass * spacing**2 / (STEP * self.integrator.force_time(STEP, m.gamma))
         return specification.State(
             k=self.k,

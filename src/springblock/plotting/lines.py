@@ -45,8 +45,7 @@ def lines(rows: Iterable[Row], over: str) -> "DataFrame":
         import pandas as pd
         import seaborn  # noqa: F401
     except ModuleNotFoundError:
-        missing = "figures of sweeps need seaborn: pip install 'springblock[study]'"
-        raise ModuleNotFoundError(missing) from None
+        raise ModuleNotFoundError("sweeps are drawn by seaborn: pip install seaborn") from None
     every_scene = [(scene_of(row), row) for row in rows]
     valued = [(scene, row, _value(scene, row, over)) for scene, row in every_scene]
     scenes = [(scene, row, value) for scene, row, value in valued if value is not None]

@@ -72,10 +72,9 @@ class Motion:
     def _failure(self, law: FromFile) -> str:
         """Return why a law from a file failed, as Python reports it."""
         given: Any = self.setup.material.law
-        row, *where = law.failed.tolist()
+        b, *where = law.failed.tolist()
         blocks = self.state.blocks
-        at = int(row) % blocks.static.size  # at a release any block
-        mu = (float(field.flat[at]) / law.load for field in (blocks.static, blocks.dynamic))
+        mu = (float(field.flat[int(b)]) / law.load for field in (blocks.static, blocks.dynamic))
         try:
             given.check(*mu, self.setup.step, *where)
         except ValueError as error:

@@ -27,7 +27,7 @@ from springblock.simulation.motion import Motion, SimulationError
 from springblock.simulation.setup import DEFAULT, Setup, check_type
 from springblock.solver.lattice import Samples, close_edges, unpadded
 from springblock.solver.law_file import FromFile
-from springblock.solver.laws import row_at_release, threshold_of
+from springblock.solver.laws import state_at_release, threshold_of
 
 #: Sample intervals between two candidates for a stored state.
 _BETWEEN = 10
@@ -83,7 +83,7 @@ class Prelude:
         thresholds = np.maximum(static, dynamic)
         if isinstance(state.law, FromFile):
             each = zip(static, dynamic, strict=True)
-            fresh = row_at_release(state.law, 0)
+            fresh = state_at_release(state.law, 0)
             thresholds = np.array([threshold_of(state.law, fresh, *pair) for pair in each])
         holds = (self.peak * (1.0 + _SLACK) <= thresholds**2).all(axis=1)
         fit = np.flatnonzero(holds & (self.samples <= latest))

@@ -11,7 +11,7 @@ import math
 import numpy as np
 from numba import njit
 
-from springblock.solver.laws import end_weight, resistance, store_state, strength_of
+from springblock.solver.laws import end_weight, resistance, state_now, store_state, strength_of
 
 
 @njit(inline="always")
@@ -39,17 +39,18 @@ def apply_friction(law, b, wx, wy, vx, vy, fx, fy, static, dynamic):
     """
     w_dot_v = wx * vx + wy * vy
     forwards = w_dot_v > 0.0
-    weight = end_weight(law, b, math.sqrt(vx * vx + vy * vy), static, dynamic)
+    state = state_now(law, b)
+    weight = end_weight(law, state, math.sqrt(vx * vx + vy * vy), static, dynamic)
     start = 1.0 - weight if forwards else 0.0
     at_x, at_y = start * vx + weight * wx, start * vy + weight * wy
     speed = math.sqrt(at_x * at_x + at_y * at_y)
-    friction = resistance(law, b, speed, -weight, static, dynamic)
-    strength = strength_of(law, b, static, dynamic)
+    friction = resistance(law, state, speed, -weight, static, dynamic)
+    strength = strength_of(law, state, static, dynamic)
     held = (w_dot_v <= 0.0) & (fx * fx + fy * fy <= strength * strength)
     mean_x, mean_y = (wx + vx, wy + vy) if forwards else (wx, wy)
     lost = friction / np.sqrt(mean_x * mean_x + mean_y * mean_y)  # NaN or infinite at rest
     slides = (wx * wx + wy * wy > friction * friction) & (not held)
     new_x, new_y = wx - lost * mean_x, wy - lost * mean_y
     new_x, new_y = new_x if slides else 0.0, new_y if slides else 0.0
-    store_state(law, b, b, math.sqrt(new_x * new_x + new_y * new_y), slides)
+    store_state(law, b, state, math.sqrt(new_x * new_x + new_y * new_y), slides)
     return new_x, new_y, slides, w_dot_v

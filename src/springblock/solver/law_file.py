@@ -1,7 +1,7 @@
 """Laws of friction from files (`springblock.model.law`), as the kernels call them.
 
 All these laws are one type that calls its functions through pointers: for a new law only these are
-compiled, in a second or two. Rows, T and V are as in `laws`.
+compiled, in a second or two. T and V are as in `laws`; a state is an array of states and an index.
 """
 
 import math
@@ -26,79 +26,86 @@ _LEAST = 1e-100
 class FromFile(NamedTuple):
     """Friction by a law from a file."""
 
-    state: Array  #: (2 blocks + 1, variables): now, one step before, and at a release
-    contact: NDArray[np.bool_]  #: (2 blocks + 1,) for the same rows; without contact no friction
+    now: Array  #: (blocks, variables) state
+    before: Array  #: (blocks, variables) state one step before
+    at_release: Array  #: (blocks, variables) state of a block that detaches
+    contact: NDArray[np.bool_]  #: (blocks,); without contact no friction
     constants: Array  #: in the order of the file
     load: float  #: F_n, as the velocity that it adds in one step
     speed: float  #: l/h, m/s
     step: float  #: h, s
-    failed: Array  #: (2 + variables,) of the first failure: row, or -1; speed, m/s; state
-    friction: Any  #: (constants, state, row, mu_static, mu_dynamic, speed) -> mu, -1 if it raises
-    #: (constants, state, row, speed, step) -> whether it stored a finite state, that after a step
+    failed: Array  #: (2 + variables,) of the first failure: block, or -1; speed, m/s; state
+    friction: Any  #: (constants, states, b, mu_static, mu_dynamic, speed) -> mu, -1 if it raises
+    #: (constants, states, b, speed, step) -> whether it stored a finite state, that after a step
     update: Any
 
     @staticmethod
-    def resistance(law, row, speed, slope, static, dynamic):
+    def resistance(law, state, speed, slope, static, dynamic):
         """Return T at the largest solution V, which a decelerating block reaches first.
 
         If friction decreases with V, a fixed-point iteration from above finds it. If friction
         increases, the iteration overshoots, and V lies between the last two iterates.
         """
-        if not law.contact[row]:
+        if not law.contact[state[1]]:
             return dynamic
-        mean, friction = speed, _friction(law, row, max(speed, 0.0), static, dynamic)
+        mean, friction = speed, _friction(law, state, max(speed, 0.0), static, dynamic)
         for _ in range(_ITERATIONS if slope != 0.0 else 0):
             before, mean = mean, speed + slope * friction
             if abs(mean - before) <= _TOLERANCE * abs(speed):
                 break
             if mean <= 0.0 and slope < 0.0:
                 mean = 0.0
-            fast, friction = friction, _friction(law, row, max(mean, 0.0), static, dynamic)
+            fast, friction = friction, _friction(law, state, max(mean, 0.0), static, dynamic)
             if friction == fast:  # independent of speed
                 break
             if slope < 0.0 and speed + slope * friction >= mean:
                 low, high = (mean, friction), (before, fast)
-                return _between(law, row, speed, slope, static, dynamic, low, high)
+                return _between(law, state, speed, slope, static, dynamic, low, high)
             if mean == 0.0:
                 return np.inf
         return friction
 
     @staticmethod
-    def end_weight(law, row, speed, static, dynamic):
+    def end_weight(law, state, speed, static, dynamic):
         """Return the least weight for which steep friction causes no ringing."""
-        if speed == 0.0 or not law.contact[row]:
+        if speed == 0.0 or not law.contact[state[1]]:
             return 0.5
-        slow = _friction(law, row, speed, static, dynamic)
-        fast = _friction(law, row, 2.0 * speed, static, dynamic)
+        slow = _friction(law, state, speed, static, dynamic)
+        fast = _friction(law, state, 2.0 * speed, static, dynamic)
         return max(0.5, 1.0 - speed / max(fast - slow, speed))
 
     @staticmethod
-    def surely_holds(law, row, fx, fy, static, dynamic):
+    def surely_holds(law, state, fx, fy, static, dynamic):
         return False  # the file is asked in each step, and may fail
 
     @staticmethod
-    def threshold_of(law, row, static, dynamic):
-        return max(static, _friction(law, row, 0.0, static, dynamic))
+    def threshold_of(law, state, static, dynamic):
+        return max(static, _friction(law, state, 0.0, static, dynamic))
 
     @staticmethod
-    def row_before(law, b):
-        return b + len(law.state) // 2
+    def state_now(law, b):
+        return law.now, np.int64(b)
 
     @staticmethod
-    def row_at_release(law, b):
-        return len(law.state) - 1
+    def state_before(law, b):
+        return law.before, np.int64(b)
 
     @staticmethod
-    def store_state(law, b, row, moved, slides):
+    def state_at_release(law, b):
+        return law.at_release, np.int64(b)
+
+    @staticmethod
+    def store_state(law, b, state, moved, slides):
         if not law.contact[b]:
             return
-        for i in range(law.state.shape[1]):
-            law.state[b + len(law.state) // 2, i] = law.state[b, i]
-            law.state[b, i] = law.state[np.int64(row) if slides else -1, i]
+        states, at = state if slides else (law.at_release, np.int64(b))
+        for i in range(law.now.shape[1]):
+            law.before[b, i] = law.now[b, i]
+            law.now[b, i] = states[at, i]
         if slides:
             at, speed = np.int64(b), moved * law.speed
-            if not law.update(law.constants, law.state, at, speed, law.step):
-                _fail(law, at, speed)
+            if not law.update(law.constants, law.now, at, speed, law.step):
+                _fail(law, (law.now, at), speed)
 
 
 def from_file(
@@ -109,9 +116,12 @@ def from_file(
     A law that numba cannot compile is refused with a ValueError that gives the reason.
     """
     initial = np.array(list(law.initial.values()))
+    now, before, at_release = np.tile(initial, (3, len(contact), 1))
     return FromFile(
-        state=np.tile(initial, (2 * len(contact) + 1, 1)),
-        contact=np.concatenate([contact, contact, [True]]),
+        now=now,
+        before=before,
+        at_release=at_release,
+        contact=contact,
         constants=np.array(list(law.constants.values())),
         load=load,
         speed=speed,
@@ -129,7 +139,7 @@ def _compiled(law: LawFile) -> dict[str, Any]:
     """Compile `friction` and `update` of a law to C functions with the arguments of `FromFile`."""
     state = list(law.initial)
     place = {name: f"constants[{i}]" for i, name in enumerate(law.constants)}
-    place |= {name: f"state[row, {i}]" for i, name in enumerate(state)}
+    place |= {name: f"states[b, {i}]" for i, name in enumerate(state)}
 
     def call(name: str) -> str:
         given = ", ".join(place.get(each, each) for each in law.arguments(name))
@@ -138,18 +148,18 @@ def _compiled(law: LawFile) -> dict[str, Any]:
     after = [f"after_{i}" for i in range(len(state))]
     # an exception would not leave a C function
     lines = [
-        "def friction_at(constants, state, row, mu_static, mu_dynamic, speed):",
+        "def friction_at(constants, states, b, mu_static, mu_dynamic, speed):",
         "    try:",
         f"        return {call('friction')}",
         "    except Exception:",
         "        return -1.0",
-        "def update_at(constants, state, row, speed, step):",
+        "def update_at(constants, states, b, speed, step):",
         "    try:",
         f"        {', '.join(after)} = {call('update')}" if state else "        pass",
         "    except Exception:",
         "        return False",
         *(f"    if not 0.0 * {each} == 0.0: return False" for each in after),  # infinite or NaN
-        *(f"    state[row, {i}] = {each}" for i, each in enumerate(after)),
+        *(f"    states[b, {i}] = {each}" for i, each in enumerate(after)),
         "    return True",
     ]
     module = law.run()
@@ -171,27 +181,28 @@ def _compiled(law: LawFile) -> dict[str, Any]:
 
 
 @kernel
-def _fail(law, row, speed):
+def _fail(law, state, speed):
     """Record a failure, unless there was one before: others may follow from it."""
+    states, b = state
     if law.failed[0] < 0.0:
-        law.failed[0], law.failed[1] = row, speed
-        for i in range(law.state.shape[1]):
-            law.failed[2 + i] = law.state[row, i]
+        law.failed[0], law.failed[1] = b, speed
+        for i in range(states.shape[1]):
+            law.failed[2 + i] = states[b, i]
 
 
 @kernel
-def _friction(law, row, speed, static, dynamic):
-    """Return T for the state in a row, at a speed in l per step."""
+def _friction(law, state, speed, static, dynamic):
+    """Return T for a state, at a speed in l per step."""
     mu_static, mu_dynamic = static / law.load, dynamic / law.load
-    at = np.int64(row)
-    mu = law.friction(law.constants, law.state, at, mu_static, mu_dynamic, speed * law.speed)
+    states, b = state
+    mu = law.friction(law.constants, states, b, mu_static, mu_dynamic, speed * law.speed)
     if not 0.0 <= mu < np.inf:
-        _fail(law, at, speed * law.speed)
+        _fail(law, state, speed * law.speed)
     return law.load * mu
 
 
 @kernel
-def _between(law, row, speed, slope, static, dynamic, low, high):
+def _between(law, state, speed, slope, static, dynamic, low, high):
     """Return T at V = speed + slope T between two speeds, each given with its T.
 
     By false position (Illinois) in log V, since friction usually increases with the logarithm of
@@ -203,7 +214,7 @@ def _between(law, row, speed, slope, static, dynamic, low, high):
     for _ in range(_ITERATIONS):
         middle = right - above * (right - left) / (above - below)
         mean = math.exp(middle)
-        friction = _friction(law, row, mean, static, dynamic)
+        friction = _friction(law, state, mean, static, dynamic)
         excess = mean - speed - slope * friction
         if abs(excess) <= _TOLERANCE * speed:
             break

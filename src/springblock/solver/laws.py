@@ -19,9 +19,8 @@ A law is a class, for which the kernels are compiled; its static methods are cal
 at the end of this module. What it does not define it has from `Coulomb`, for which kernels take
 None, so that it adds no operation to them.
 
-The state of a block (its slip, or the variables of a file) is a row of arrays of the law. A law for
-n blocks has 2 n + 1 rows: for block b, row b now and row b + n one step before; in the last row the
-state of a block that detaches for the first time. T is the velocity that mu F_n removes in one
+The functions take the state of a block, which is its slip, in l, the place of its variables in an
+array for a law from a file, and None without a memory. T is the velocity that mu F_n removes in one
 step, and V the mean speed of that step.
 """
 
@@ -50,103 +49,97 @@ class Coulomb:
     """Friction mu_d F_n, without a state; for the meaning of the functions see below."""
 
     @staticmethod
-    def resistance(law, row, speed, slope, static, dynamic):
+    def resistance(law, state, speed, slope, static, dynamic):
         return dynamic
 
     @staticmethod
-    def end_weight(law, row, speed, static, dynamic):
+    def end_weight(law, state, speed, static, dynamic):
         return 0.5
 
     @staticmethod
-    def strength_of(law, row, static, dynamic):
+    def strength_of(law, state, static, dynamic):
         return static
 
     @staticmethod
-    def surely_holds(law, row, fx, fy, static, dynamic):
-        strength = (1.0 - MARGIN) * strength_of(law, row, static, dynamic)
+    def surely_holds(law, state, fx, fy, static, dynamic):
+        strength = (1.0 - MARGIN) * strength_of(law, state, static, dynamic)
         return fx * fx + fy * fy <= strength * strength
 
     @staticmethod
-    def threshold_of(law, row, static, dynamic):
+    def threshold_of(law, state, static, dynamic):
         return max(static, dynamic)
 
     @staticmethod
-    def row_before(law, b):
-        return b
+    def state_now(law, b):
+        return None
+
+    state_before = state_at_release = state_now
 
     @staticmethod
-    def row_at_release(law, b):
-        return b
+    def state_in_stage(law, b, moved):
+        return None
 
     @staticmethod
-    def store_state(law, b, row, moved, slides):
+    def store_state(law, b, state, moved, slides):
         pass
-
-    @staticmethod
-    def store_stage(law, b, moved):
-        return b
 
 
 class SlipWeakening(NamedTuple):
     """Friction that decreases with slip; a block that comes to rest heals."""
 
-    slip: Array  #: since the release, in l; zero at rest
+    slip: Array  #: (blocks,) since the release, in l; zero at rest
+    before: Array  #: (blocks,) slip one step before
     rate: float  #: l/d_c
-    blocks: np.uint64  #: n
 
     @classmethod
     def of(cls, blocks: int, distance: float) -> "SlipWeakening":
         """Return the law for this many blocks; `distance` is d_c in l."""
         rate = 1.0 / float(np.clip(distance, _LEAST, _MOST))
-        return cls(aligned(2 * blocks + 1), rate, np.uint64(blocks))
+        return cls(aligned(blocks), aligned(blocks), rate)
 
     @staticmethod
-    def resistance(law, row, speed, slope, static, dynamic):
+    def resistance(law, slip, speed, slope, static, dynamic):
         """Return T after a slip; it drops to mu_d at once if V h >= 2 d_c in a step from rest."""
-        slip, mean = law.slip[row], speed + slope * dynamic
-        left = max(1.0 - slip * law.rate, 0.0)
+        mean, left = speed + slope * dynamic, max(1.0 - slip * law.rate, 0.0)
         at_once = (slip <= _NO_SLIP * mean) & (0.5 * mean * law.rate >= 1.0)
         return dynamic + max(static - dynamic, 0.0) * (0.0 if at_once else left)
 
     @staticmethod
-    def row_before(law, b):
-        return np.uint64(b) + law.blocks
+    def state_now(law, b):
+        return law.slip[b]
 
     @staticmethod
-    def row_at_release(law, b):
-        return np.uint64(2) * law.blocks
+    def state_before(law, b):
+        return law.before[b]
 
     @staticmethod
-    def store_state(law, b, row, moved, slides):
-        after = law.slip[row] + moved if slides else 0.0
-        law.slip[np.uint64(b) + law.blocks] = law.slip[b]
-        law.slip[b] = after
+    def state_at_release(law, b):
+        return 0.0
 
     @staticmethod
-    def store_stage(law, b, moved):
-        row = np.uint64(b) + law.blocks
-        law.slip[row] = law.slip[b] + moved
-        return row
+    def state_in_stage(law, b, moved):
+        return law.slip[b] + moved
+
+    @staticmethod
+    def store_state(law, b, slip, moved, slides):
+        law.before[b] = law.slip[b]
+        law.slip[b] = slip + moved if slides else 0.0
 
 
 class LastingWeakening(SlipWeakening):
     """Slip weakening without healing: slip counts from the start of the run."""
 
     @staticmethod
-    def strength_of(law, row, static, dynamic):
-        return dynamic + max(static - dynamic, 0.0) * max(1.0 - law.slip[row] * law.rate, 0.0)
+    def strength_of(law, slip, static, dynamic):
+        return dynamic + max(static - dynamic, 0.0) * max(1.0 - slip * law.rate, 0.0)
 
     threshold_of = strength_of
+    state_at_release = SlipWeakening.state_before
 
     @staticmethod
-    def row_at_release(law, b):
-        return np.uint64(b) + law.blocks
-
-    @staticmethod
-    def store_state(law, b, row, moved, slides):
-        after = law.slip[row] + moved
-        law.slip[np.uint64(b) + law.blocks] = law.slip[b]
-        law.slip[b] = after
+    def store_state(law, b, slip, moved, slides):
+        law.before[b] = law.slip[b]
+        law.slip[b] = slip + moved
 
 
 class VelocityWeakening(NamedTuple):
@@ -155,7 +148,7 @@ class VelocityWeakening(NamedTuple):
     scale: float  #: v_c, in l per step
 
     @staticmethod
-    def resistance(law, row, speed, slope, static, dynamic):
+    def resistance(law, state, speed, slope, static, dynamic):
         """Return T at the larger of the two solutions V, which a block that slows reaches first."""
         drop, c, fastest = max(static - dynamic, 0.0), law.scale, speed + slope * dynamic
         under_root = (fastest + c) * (fastest + c) + 4.0 * slope * drop * c
@@ -183,27 +176,26 @@ def law_of(material: Material, step: float, load: float, contact: NDArray[np.boo
     return None
 
 
-#: (law, row, speed, slope, static, dynamic) -> T at the mean speed V = speed + slope T, where
+#: (law, state, speed, slope, static, dynamic) -> T at the mean speed V = speed + slope T, where
 #: `speed` is that without friction: the slope is -β in the leapfrog, see `friction`, and 0 if V is
 #: known. T is infinite if no V solves the equation: the block stops.
 resistance = method("resistance", Coulomb)
-#: (law, row, speed, static, dynamic) -> weight β: friction is evaluated at (1 - β) v + β v⁺, with v
-#: and v⁺ before and after the step. β is 1/2, or more where friction rises steeply with speed.
+#: (law, state, speed, static, dynamic) -> weight β: friction is evaluated at (1 - β) v + β v⁺, with
+#: v and v⁺ before and after the step. β is 1/2, or more where friction rises steeply with speed.
 end_weight = method("end_weight", Coulomb)
-#: (law, row, static, dynamic) -> largest force on a block at rest, or that reverses, which holds
+#: (law, state, static, dynamic) -> largest force on a block at rest, or that reverses, which holds
 #: it: mu_s F_n, unless it has lost strength.
 strength_of = method("strength_of", Coulomb)
-#: (law, row, fx, fy, static, dynamic) -> whether a block at rest stays so whatever the rounding.
+#: (law, state, fx, fy, static, dynamic) -> whether a block at rest stays so whatever the rounding.
 surely_holds = method("surely_holds", Coulomb)
-#: (law, row, static, dynamic) -> threshold of the force on a block at rest, F_c.
+#: (law, state, static, dynamic) -> threshold of the force on a block at rest, F_c.
 threshold_of = method("threshold_of", Coulomb)
-#: (law, b) -> row with the state of block b one step before.
-row_before = method("row_before", Coulomb)
-#: (law, b) -> row with the state of block b at its release in the last step.
-row_at_release = method("row_at_release", Coulomb)
-#: (law, b, row, moved, slides): store the state of block b after a step from the state in `row`, in
-#: which it slipped by `moved`, and keep that which it had.
+#: (law, b) -> state of block b; that one step before; and that at its release in the last step.
+state_now = method("state_now", Coulomb)
+state_before = method("state_before", Coulomb)
+state_at_release = method("state_at_release", Coulomb)
+#: (law, b, moved) -> state of block b after a part of a step, in which it slipped by `moved`.
+state_in_stage = method("state_in_stage", Coulomb)
+#: (law, b, state, moved, slides): store the state of block b after a step from `state`, in which it
+#: slipped by `moved`, and keep that which it had.
 store_state = method("store_state", Coulomb)
-#: (law, b, moved) -> row with the state of block b after a part of a step, in which it slipped by
-#: `moved`; for `rk4`, which does not use the state one step before.
-store_stage = method("store_stage", Coulomb)

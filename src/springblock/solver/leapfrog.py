@@ -36,8 +36,9 @@ from springblock.solver.lattice import (
 from springblock.solver.laws import (
     MARGIN,
     resistance,
-    row_at_release,
-    row_before,
+    state_at_release,
+    state_before,
+    state_now,
     store_state,
     strength_of,
     surely_holds,
@@ -139,7 +140,7 @@ def _holds(blocks, law, s, own, i, n):
     holds = True
     for x in range(ONE, n + ONE):
         b, fx, fy = i + x, s.force[FORCE_X + own + x], s.force[FORCE_Y + own + x]
-        is_held = surely_holds(law, b, fx, fy, blocks.static[b], blocks.dynamic[b])
+        is_held = surely_holds(law, state_now(law, b), fx, fy, blocks.static[b], blocks.dynamic[b])
         holds = holds & (is_held | (blocks.static[b] == 0.0))
     return holds
 
@@ -280,7 +281,7 @@ def _reconstruct_displacements(blocks, law, released, row, x, constants, slider)
             # Friction acted along v + w ∥ (1 + a) v⁺ - f, on the side of v⁺.
             mean_x, mean_y = (1.0 + a) * vx - fx, (1.0 + a) * vy - fy
             size, forwards = math.hypot(mean_x, mean_y), mean_x * vx + mean_y * vy
-            kept, slope = row_before(law, b), 1.0 / (2.0 * a)
+            kept, slope = state_before(law, b), 1.0 / (2.0 * a)
             speed = math.copysign(size, forwards) / (2.0 * a)
             friction = resistance(law, kept, speed, slope, blocks.static[b], blocks.dynamic[b])
             scale = math.copysign(friction / size, forwards)
@@ -302,7 +303,7 @@ def place_releases(blocks, law, rows, released, count, constants, k):
         row, x = released.row[m], released.x[m]
         b = index_of(row, x, constants.grid)
         _reconstruct_displacements(blocks, law, released, row, x, constants, slider)
-        kept = row_at_release(law, b)
+        kept = state_at_release(law, b)
         threshold = threshold_of(law, kept, blocks.static[b], blocks.dynamic[b])
         released.theta[m] = release_theta(released, threshold, springs, slider, slide)
     for m in range(count):
@@ -323,7 +324,7 @@ def place_releases(blocks, law, rows, released, count, constants, k):
         rows.y[row] += further * ay
         a2 = ax * ax + ay * ay
         a1 = math.sqrt(a2)
-        kept = row_at_release(law, b)
+        kept = state_at_release(law, b)
         friction = resistance(law, kept, 0.5 * a1, 0.0, blocks.static[b], blocks.dynamic[b])
         store_state(law, b, kept, (slip + speed) * a1, True)
         work = friction * a1 * (slip + 0.5 * (theta - 0.5))  # along s + (θ_ε - 1/2) a/2
@@ -342,7 +343,7 @@ def _steps_at_rest(blocks, law, s, own, i, n, pull):
     least = np.inf
     for x in range(ONE, n + ONE):
         b, fx, fy = i + x, s.force[FORCE_X + own + x], s.force[FORCE_Y + own + x]
-        strength = strength_of(law, b, blocks.static[b], blocks.dynamic[b])
+        strength = strength_of(law, state_now(law, b), blocks.static[b], blocks.dynamic[b])
         least = min(least, strength - math.sqrt(fx * fx + fy * fy))
     return np.int64(min((1.0 - MARGIN) * least / pull, _FOREVER))
 

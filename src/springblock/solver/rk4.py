@@ -30,7 +30,13 @@ from springblock.solver.lattice import (
     slider_at,
     update_peaks,
 )
-from springblock.solver.laws import resistance, row_at_release, store_stage, store_state
+from springblock.solver.laws import (
+    resistance,
+    state_at_release,
+    state_in_stage,
+    state_now,
+    store_state,
+)
 from springblock.solver.release import Releases, make_releases, release_theta
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, Scratch, U, aligned, forces_on_band
 
@@ -101,7 +107,7 @@ def _begin_step(blocks, law, stage, released, count, band, s, damping, now):
             half_x, half_y = (0.5 * fx, 0.5 * fy) if rests else (vx[b], vy[b])
             speed = math.sqrt(half_x * half_x + half_y * half_y)
             slope = -0.5 if rests else 0.0  # see `laws.resistance`
-            friction = resistance(law, b, speed, slope, static[b], dynamic[b])
+            friction = resistance(law, state_now(law, b), speed, slope, static[b], dynamic[b])
             ex[b], ey[b] = _friction_direction(
                 law, fx, fy, vx[b], vy[b], static[b], friction, damping
             )
@@ -109,7 +115,7 @@ def _begin_step(blocks, law, stage, released, count, band, s, damping, now):
                 t_det[b] = min(t_det[b], now)
                 excess = fx * ex[b] + fy * ey[b] - friction
                 ax, ay = excess * ex[b], excess * ey[b]
-                store_state(law, b, row_at_release(law, b), 0.125 * excess, True)
+                store_state(law, b, state_at_release(law, b), 0.125 * excess, True)
                 vx[b], vy[b] = 0.5 * ax, 0.5 * ay
                 stage.vx[b], stage.vy[b] = vx[b], vy[b]
                 stage.dx[b], stage.dy[b] = 0.125 * ax, 0.125 * ay
@@ -156,7 +162,7 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
     for m in range(count):
         b = index_of(released.row[m], released.x[m], constants.grid)
         blocks.vx[b], blocks.vy[b] = 0.0, 0.0  # at rest before the step, for its neighbours
-        store_state(law, b, b, 0.0, False)
+        store_state(law, b, state_now(law, b), 0.0, False)
     for m in range(count):
         row, x = released.row[m], released.x[m]
         b = index_of(row, x, constants.grid)
@@ -175,7 +181,9 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
         stage.dx[b] += further * released.ax[m]
         stage.dy[b] += further * released.ay[m]
         speed = math.hypot(released.ax[m], released.ay[m])
-        friction = resistance(law, b, 0.5 * speed, 0.0, blocks.static[b], blocks.dynamic[b])
+        friction = resistance(
+            law, state_now(law, b), 0.5 * speed, 0.0, blocks.static[b], blocks.dynamic[b]
+        )
         heat += friction * (0.125 + further) * speed
     return heat
 
@@ -186,8 +194,8 @@ def _friction_in_stage(blocks, law, stage, b):
     ex, ey = stage.ex[b], stage.ey[b]
     moved = (stage.ux[b] - blocks.ux[b]) * ex + (stage.uy[b] - blocks.uy[b]) * ey
     speed = abs(stage.vx[b] * ex + stage.vy[b] * ey)
-    now = store_stage(law, b, moved)
-    return resistance(law, now, speed, 0.0, blocks.static[b], blocks.dynamic[b])
+    state = state_in_stage(law, b, moved)
+    return resistance(law, state, speed, 0.0, blocks.static[b], blocks.dynamic[b])
 
 
 @kernel
@@ -254,7 +262,7 @@ def _finish_step(blocks, law, stage, grid, heat, squares):
             lost = 0.5 * (new_x * new_x + new_y * new_y)  # kinetic energy of a block that reverses
             further = du[b] * ex[b] + dv[b] * ey[b]
             work = blocks.dynamic[b] * further if law is None else 0.0
-            store_state(law, b, b, further, not turned)
+            store_state(law, b, state_now(law, b), further, not turned)
             heat_of_row = add(heat_of_row, work + (lost if turned else 0.0))
             new_x, new_y = 0.0 if turned else new_x, 0.0 if turned else new_y
             next_x, next_y = ux[b] + du[b], uy[b] + dv[b]

@@ -7,7 +7,7 @@ import numpy as np
 from springblock.model.numbers import Array
 from springblock.solver.compilation import kernel
 from springblock.solver.lattice import Constants, Lattice, band_from, close_rows
-from springblock.solver.laws import resistance
+from springblock.solver.laws import resistance, state_now
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, Scratch, U, forces_on_band
 
 
@@ -44,5 +44,7 @@ def _enter(blocks, law, constants, slider, velocity, every_row, s, force):
                         s.force[FORCE_Y + own + x],
                     )
                 elif static > 0.0:
-                    friction = resistance(law, b, speed, 0.0, static, blocks.dynamic[b])
+                    friction = resistance(
+                        law, state_now(law, b), speed, 0.0, static, blocks.dynamic[b]
+                    )
                     force[0, b], force[1, b] = friction * vx / speed, friction * vy / speed
