@@ -135,29 +135,19 @@ def test_directions_are_compared_with_the_smallest_angle(springblock, batch, tmp
     assert "law coulomb" in springblock("table", batch(0, 1, "--n-p", 3, "--n-s", 3))
 
 
-LAW = """
-CONSTANTS = {"floor": (0.1, "1"), "v_0": (1e-4, "m s-1")}
-def friction(mu_dynamic, speed, floor, v_0):
-    return mu_dynamic * (floor + (1.0 - floor) / (1.0 + speed / v_0))
-"""
-
-
-def test_an_own_law_is_compared_with_coulombs(springblock, batch, tmp_path):
-    """Each variant of its constants by itself; a unit with a space is a unit."""
-    (tmp_path / "ageing.py").write_text(LAW)
-    own = ("--law", tmp_path / "ageing.py")
-    runs = batch(0, 1), *(batch(0, 1, *own, "--constant", f"v_0={v}") for v in ("1e-4", "1e-3"))
-    assert len(springblock("table", *runs, "--of", "static_friction").splitlines()) == 4
+def test_a_weakening_law_is_compared_with_coulombs(springblock, batch, tmp_path):
+    """Which weakens over no distance."""
+    own = ("--law", "slip_weakening", "--slip-distance")
+    runs = batch(0, 1), *(batch(0, 1, *own, d_c) for d_c in ("1e-8", "2e-8"))
     output = tmp_path / "a.csv"
     springblock("table", *runs, "--changes", "--of", "static_friction", "--output", output)
     rows = written(output)
-    assert [row["from"] for row in rows] == 2 * ["law = coulomb"] + ["v_0 = 0.0001"]
-    assert [row["v_0"] for row in rows] == ["0.0001", "0.001", ""]
+    assert [row["from"] for row in rows] == 2 * ["slip_distance = 0.0 m"]
     friction = [np.mean([run.static_friction for run in read(file)]) for file in runs]
-    exact = [friction[i] - friction[j] for i, j in ((1, 0), (2, 0), (2, 1))]
+    exact = [other - friction[0] for other in friction[1:]]
     assert [float(row["static_friction"]) for row in rows] == pytest.approx(exact, rel=1e-9)
     said = springblock("compare", runs[0], runs[1])
-    assert f"law: coulomb in {runs[0]}, ageing-" in said
+    assert f"law: coulomb in {runs[0]}, slip_weakening" in said
 
 
 def test_other_thresholds_are_not_paired_and_ensembles_of_one_side_are_named(

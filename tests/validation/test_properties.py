@@ -72,7 +72,8 @@ def cases(draw, periodic=None) -> Case:
         gamma=rate * draw(st.sampled_from([0.0, 1e-3, 0.1, 1.0])),
         **{name: 0.3 * scales[UNITS[name]] for name in [LAWS[law]] if name},
     )
-    integrator = draw(st.sampled_from(list(INTEGRATORS)))
+    compiled = INTEGRATORS if law == "coulomb" or not periodic else ["leapfrog"]  # for other tests
+    integrator = draw(st.sampled_from(list(compiled)))
     step = draw(st.floats(0.02, 0.2)) * limit(integrator, material)
     material = replace(material, slider_velocity=slip / (LOADING * step))
     surface = Surface(contact, *draw_friction(shape, seed, material), periodic=periodic)

@@ -5,10 +5,9 @@ import pytest
 
 from analysis.test_correlation import times
 from springblock import Pattern, Setup, Surface, simulate
-from springblock.io.rows import select
 from springblock.model.defaults import STEP
 from springblock.model.scene import Scene
-from springblock.study.accuracy import production, work_precision
+from springblock.study.accuracy import production
 from springblock.study.accuracy.conventions import DELAY, LENGTH, SCENES
 from springblock.study.accuracy.production import STEPS, measure, of_length, of_mean
 
@@ -53,19 +52,6 @@ def test_rows_hold_what_simulate_yields(rows):
     assert found[DELAY]["value"] == pytest.approx(np.mean(delays))
     assert found[DELAY]["scale"] == pytest.approx(found["t_max"]["scale"])
     assert (found[LENGTH]["unit"], found[DELAY]["unit"]) == ("blocks", "s")
-
-
-def test_an_ensemble_has_no_bias_from_itself(monkeypatch):
-    """Nor the mean of its scatter, but for rounding."""
-    monkeypatch.setitem(work_precision.ENSEMBLES, "flat", (Pattern.flat(4), 3))
-    monkeypatch.setattr(work_precision, "PAPER_STEP", work_precision.FINE_STEP)
-    monkeypatch.setattr(work_precision, "PAIRED_SEEDS", {"leapfrog": 2})  # of these three
-    paired = [*work_precision.paired_rows("flat")]
-    scatter = select(paired, comparison="scatter", quantity="static_friction")[0]
-    of_itself = select(paired, comparison="paired", integrator="leapfrog")
-    assert [row["error"] for row in of_itself] == 3 * [0.0]
-    assert scatter["error"] == pytest.approx(0.0, abs=1e-15)
-    assert scatter["ci_low"] < 0.0 < scatter["ci_high"]
 
 
 def test_coarser_steps_are_compared_with_the_finest_that_is_asked_for(monkeypatch):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from benchmarks.reference import differences, solution, solve
+from benchmarks.reference import solve
 from springblock.io.parquet import load
 from springblock.study.accuracy.solutions import FILE, SMALL
 from springblock.study.accuracy.stability.surfaces import COLUMNS, pulled_column
@@ -12,13 +12,6 @@ def test_the_solutions_are_stored_in_a_small_file():
     runs = [(row["scene"], row["seed"]) for row in load(FILE).to_pylist()]
     assert runs == [(scene, seed) for scene, small in SMALL.items() for seed in range(small.seeds)]
     assert FILE.stat().st_size < 300_000
-
-
-def test_the_quickest_solution_comes_out_as_stored():
-    """To well above rounding, and below the accuracy of the solution."""
-    stored = next(r for r in load(FILE).to_pylist() if (r["scene"], r["seed"]) == ("grooved", 0))
-    found = differences(solution("grooved", 0), stored)
-    assert max(found.values()) < 1e-6, found
 
 
 @pytest.mark.parametrize(("ratio", "strain"), COLUMNS)

@@ -5,10 +5,11 @@ from dataclasses import asdict
 import pytest
 
 from precision import production_rows
+from springblock.analysis.lowest import lowest
 from springblock.io.identity import identity
 from springblock.model.scene import Scene
 from springblock.study.claims.rule import Case
-from springblock.study.findings.page import FILE, lowest_size, values
+from springblock.study.findings.page import by_size, values
 from springblock.study.pages import rendered
 from study.continuum import chapter
 
@@ -47,29 +48,42 @@ def realisations(n_blocks, frictions):
     ]
 
 
-PAPER = realisations(120, {2: 0.8, 6: 0.62, 20: 0.68}) + realisations(126, {7: 0.6202})
+PAPER = realisations(120, {0: 0.79, 2: 0.8, 6: 0.62, 20: 0.68}) + realisations(126, {7: 0.6202})
+EDGES = [{"edge": "along", "what": "paper", "quantity": "l_c", "predicted": 2.7, "simulated": 2.6}]
+
+
+def rendered_from(claims):
+    """The page from these rows of the table of statements."""
+    tables = claims, PAPER, chapter.rows(), production_rows(), EDGES
+    return rendered("findings/page.md", **values(*tables))
 
 
 def test_the_size_of_lowest_friction_is_that_of_the_papers_pillars():
     """Other lattices, gaps, constants and directions do not count."""
-    other = [Scene(60, n_p=30, n_s=30), Scene(120, n_p=3, n_s=1), Scene(120)]
+    other = [Scene(60, n_p=30, n_s=30), Scene(120, n_p=3, n_s=1)]
     other += [Scene(120, n_p=3, n_s=3, direction="y")]
     other += [Scene(120, n_p=3, n_s=3, thickness=4e-5)]
-    found = lowest_size([*PAPER, *(identity(each) | {"static_friction": 0.1} for each in other)])
-    assert found == (6, [6, 7])
+    found = by_size([*PAPER, *(identity(each) | {"static_friction": 0.1} for each in other)])
+    del found[0]
+    assert lowest(found) == (6, [6, 7])
 
 
 def test_findings_have_the_values_of_the_tables():
-    text = rendered("findings/page.md", **values(CLAIMS, PAPER, chapter.rows(), production_rows()))
-    for value in ("0.170 [0.160, 0.180]", "0.860 [0.850, 0.870]", "7.0 layer thicknesses wide"):
+    text = rendered("findings/page.md", **rendered_from(CLAIMS))
+    for value in (
+        "0.620 on pillars of six, 0.790 on a flat",
+        "86 % of single",
+        "gives 2.70 blocks",
+    ):
         assert value in text
-    assert text.count("**") == FILE.read_text(encoding="utf-8").count("**")
 
 
-@pytest.mark.parametrize("place", [0, 2, 3, 4, 5, 6, 7, 8, 10])
+@pytest.mark.parametrize("place", [0, 2, 3, 4, 6, 8, 10])
 def test_findings_are_refused_where_their_statement_turns_out_otherwise(place):
-    """The other two are quoted, or not named."""
+    """The others are not named."""
     turned = {"verdict": "not settled", "outcome": "open", "value": 0.5}
     claims = [row | turned if i == place else row for i, row in enumerate(CLAIMS)]
     with pytest.raises(ValueError, match="contradict"):
-        rendered("findings/page.md", **values(claims, PAPER, chapter.rows(), production_rows()))
+        rendered(
+            "findings/page.md", **values(claims, PAPER, chapter.rows(), production_rows(), EDGES)
+        )

@@ -3,15 +3,18 @@
 `make docs` copies the page to `FILE`, which all reports show.
 """
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from springblock.analysis.lowest import Lowest, lowest
+from springblock.analysis.lowest import lowest
+from springblock.analysis.statistics import mean_interval
 from springblock.io.rows import Row, scene_of, select
-from springblock.model.defaults import STEP
+from springblock.model.numbers import Array
 from springblock.model.scene import Scene
 from springblock.study.accuracy import page as accuracy
 from springblock.study.claims.page import judged
@@ -25,10 +28,16 @@ def values(
     realisations: Iterable[Row],
     cells: Sequence[Row],
     production: Sequence[Row],
+    edges: Sequence[Row],
 ) -> dict[str, Any]:
-    """Return what the template names, from the rows of four tables; `cells` is `continuum`."""
-    shown = [row for part in judged(claims) for row in part.rows]
-    limit = continuum.values(cells)
+    """Return what the template names, from rows of tables.
+
+    `cells` is the table `continuum`, `edges` the table `precursors`.
+    """
+    parts = judged(claims)
+    shown = [row for part in parts for row in part.rows]
+    limit, samples = continuum.values(cells), by_size(realisations)
+    (chain,) = select(edges, edge="along", what="paper", quantity="l_c")
 
     def found(statement: str, **case: Any) -> list[Row]:
         """Return the findings on a statement, with their values as texts."""
@@ -36,25 +45,27 @@ def values(
 
     return {
         "found": found,
-        "size": lowest_size(realisations),
+        "counts": Counter(part.verdict for part in parts),
+        "size": lowest({n_p: samples[n_p] for n_p in samples if n_p}),
+        "friction": {n_p: mean_interval(samples[n_p]) for n_p in samples},
+        "chain": chain,
         "usual": limit["usual"],
         "best": limit["best"],
         "last": max(abs(row["last"]) for row in limit["squares"]),
-        "coulomb": limit["coulomb"]["least"],
+        "coulomb": next(iter(limit["coulomb"]["means"].values())),
         "errors": accuracy.errors(production),
-        "seconds": max(row["cpu_seconds"] for row in select(production, step=STEP)),
     }
 
 
-def lowest_size(realisations: Iterable[Row]) -> Lowest:
-    """Return n_p of lowest static friction, with the paper's constants and gaps as wide as pillars.
+def by_size(realisations: Iterable[Row]) -> dict[int, Array]:
+    """Return static friction by n_p, 0 for flat, with the paper's constants and equal gaps.
 
     The sides of surfaces have 120 to 128 blocks, which are multiples of 2 n_p.
     """
     samples: dict[int, list[float]] = {}
     for row in realisations:
-        scene = scene_of(row)
+        scene = replace(scene_of(row), duration=0.0, snapshot_times=())
         even = Scene(scene.n_blocks, n_p=scene.n_p, n_s=scene.n_p)
-        if scene.n_p and scene == even and 120 <= scene.n_blocks <= 128:
+        if scene == even and 120 <= scene.n_blocks <= 128:
             samples.setdefault(scene.n_p, []).append(row["static_friction"])
-    return lowest({n_p: np.array(samples[n_p]) for n_p in sorted(samples)})
+    return {n_p: np.array(samples[n_p]) for n_p in sorted(samples)}
