@@ -117,18 +117,9 @@ def from_file(
     """
     initial = np.array(list(law.initial.values()))
     now, before, at_release = np.tile(initial, (3, len(contact), 1))
-    return FromFile(
-        now=now,
-        before=before,
-        at_release=at_release,
-        contact=contact,
-        constants=np.array(list(law.constants.values())),
-        load=load,
-        speed=speed,
-        step=step,
-        failed=np.full(2 + len(initial), -1.0),
-        **_compiled(law),
-    )
+    constants, failed = np.array(list(law.constants.values())), np.full(2 + len(initial), -1.0)
+    states = now, before, at_release, contact, constants
+    return FromFile(*states, load, speed, step, failed, **_compiled(law))
 
 
 _ARRAYS = float64[::1], float64[:, ::1], int64
