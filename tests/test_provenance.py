@@ -31,14 +31,16 @@ def digest_of(tmp_path, monkeypatch):
     def written(name, text, step):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(text)
-        provenance._of.cache_clear()
-        provenance.digest.cache_clear()
+        clear()
         return provenance.digest(step)
+
+    def clear():
+        for each in (provenance.digest, provenance._of, provenance._of_module):
+            each.cache_clear()
 
     monkeypatch.setattr(provenance, "_ROOT", tmp_path)
     yield written
-    provenance._of.cache_clear()
-    provenance.digest.cache_clear()
+    clear()
 
 
 @pytest.mark.parametrize(

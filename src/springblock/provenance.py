@@ -112,10 +112,13 @@ def _of(part: str) -> str:
         entries = tomllib.loads((_ROOT / place).read_text("utf-8")).items()
         words = repr([(name, [values.get(key) for key in keys]) for name, values in entries])
         return _short(words)
-    texts = []
-    for file in _files(part):
-        texts += [file.name, *_skeleton(ast.parse(file.read_bytes()))]
-    return _short("\n".join(texts))
+    return _short("\n".join(f"{file.name} {_of_module(file)}" for file in _files(part)))
+
+
+@cache
+def _of_module(file: Path) -> str:
+    """Return the digest of the code of a module."""
+    return _short("\n".join(_skeleton(ast.parse(file.read_bytes()))))
 
 
 def _skeleton(node: Any) -> list[str]:
