@@ -127,7 +127,7 @@ def test_without_seaborn_a_sentence_asks_for_it(two_lines, monkeypatch):
 
 @pytest.mark.parametrize(
     ("over", "sentence"),
-    [("speed", "unknown axis 'speed'; choose one of"), ("pressure", "has the same value")],
+    [("speed", "unknown axis 'speed'; choose for"), ("pressure", "has the same value")],
 )
 def test_what_cannot_be_drawn_is_refused(two_lines, over, sentence):
     with pytest.raises(ValueError, match=sentence):

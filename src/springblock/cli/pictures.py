@@ -6,6 +6,7 @@ import click
 from matplotlib.figure import Figure
 
 from springblock.cli.options import INPUT, PICTURE, Output, scene_options
+from springblock.io.parquet import load
 from springblock.io.parquet import read as read_tables
 from springblock.io.records import Record, read
 from springblock.io.schemas import SUMMARY
@@ -79,8 +80,9 @@ def plot(
         picture = _fields(files, seed is not None or over or observables)
         caption = still.FIELDS_CAPTION
     elif over is None:
-        if len(files) > 1:
-            raise ValueError(f"{len(files)} files given; give one, or a parameter with --over")
+        own = load(files[0], ["seed"], ["onset_end"])  # the latter only beside curves
+        if len(files) > 1 or len(own.column_names) < 2:
+            raise ValueError("name an axis of the runs: --over contact_fraction, n_p or gamma")
         picture, caption = still.plot(_chosen(files[0], seed)), still.RUN_CAPTION
     else:
         rows = read_tables(files, SUMMARY).to_pylist()

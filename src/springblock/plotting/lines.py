@@ -50,7 +50,8 @@ def lines(rows: Iterable[Row], over: str) -> "DataFrame":
     valued = [(scene, row, _value(scene, row, over)) for scene, row in every_scene]
     scenes = [(scene, row, value) for scene, row, value in valued if value is not None]
     if not scenes:
-        raise ValueError(f"unknown axis {over!r}; choose one of {', '.join([SHARE, *AXES])}")
+        varying = ", ".join([*axes(scene for scene, _ in every_scene)[:3], SHARE])
+        raise ValueError(f"unknown axis {over!r}; choose for instance {varying}")
     placed = [{"place": _place(value), "line": _others(s, over)} for s, _, value in scenes]
     every = pd.DataFrame([row | more for (_, row, _), more in zip(scenes, placed, strict=True)])
     if every["place"].nunique() < 2:

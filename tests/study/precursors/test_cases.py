@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -14,8 +13,7 @@ from springblock.study.precursors.cases import AVALANCHES, CELLS, PASSAGES, PREC
 from springblock.study.results import TABLES
 from springblock.theory.chain import avalanche_length, one_sided_correlation
 from springblock.theory.front import Front
-
-REGISTER = Path(__file__).parents[3] / "docs/registration"
+from study.precursors.chapter import REGISTER
 
 
 def test_the_register_has_what_the_exact_solution_gives():
