@@ -38,9 +38,8 @@ def _draw_lengths(ax: Axes, cells: pd.DataFrame) -> None:
     for edge, look in _EDGES.items():
         one = cells["edge"] == edge
         columns = ["simulated", "simulated_low", "simulated_high"]
-        curves.draw_points(
-            ax, handed[one], cells.loc[one, columns], label=f"simulation, {edge}", **look
-        )
+        own: Look = look | {"label": f"simulation, {edge}", "linestyle": "none"}
+        curves.draw_points(ax, handed[one], cells.loc[one, columns], **own)
         open_: Look = look | {"markerfacecolor": "none", "markersize": 7.0, "linestyle": "none"}
         ax.plot(handed[one], cells.loc[one, "predicted"], label=f"chain, {edge}", **open_)
     ax.set(xscale="log", yscale="log", ylabel="correlation length $l_c$ (blocks)")
@@ -59,7 +58,8 @@ def _draw_fronts(ax: Axes, cells: pd.DataFrame) -> None:
             ax.plot([0.0, *r], [1.0, *of_r["predicted"]], color=look["color"])
         values = Interval(*of_r[["simulated", "simulated_low", "simulated_high"]].to_numpy().T)
         bars = np.abs(np.array([values.low, values.high]) - values.mean)
-        sign: Look = look | curves.BAR | {"fillstyle": fill, "markersize": 4.0}
+        size = 4.0 if fill == "full" else 7.0
+        sign: Look = look | curves.BAR | {"fillstyle": fill, "markersize": size}
         ax.errorbar(r, values.mean, bars, **sign | {"linestyle": "none"})
     for spacing, fill in _FILLS.items():
         name = f"$l$ = {MICRO * spacing:g} µm"

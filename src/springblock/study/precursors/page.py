@@ -18,7 +18,14 @@ def values(rows: Sequence[Row]) -> dict[str, Any]:
     return {
         "paper": {edge: _of_paper(rows, edge) for edge in ("along", "across")},
         "lengths": [row | {"found": _interval(row)} for row in lengths],
-        "together": [row for row in select(rows, quantity="l_c") if row not in lengths],
+        "by_what": {
+            what: {
+                row["edge"]: row | {"found": _interval(row)}
+                for row in lengths
+                if row["what"] == what
+            }
+            for what in dict.fromkeys(row["what"] for row in lengths)
+        },
         "agreeing": len(lengths) - len(apart),
         "apart": [row | {"found": _interval(row)} for row in apart],
         "furthest": max(fine, key=_difference),
