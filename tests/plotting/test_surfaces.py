@@ -44,6 +44,7 @@ def draw_levels() -> Figure:
 
 DRAWINGS = {
     "supplement_levels": draw_levels,
+    "supplement_grooves": draw_levels,
     "surfaces": draw_surfaces,
     "surfaces of one run": partial(draw_surfaces, 1),
 }
