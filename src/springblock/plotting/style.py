@@ -57,8 +57,8 @@ METHODS: dict[str, Look] = {
     | {"markersize": 3.8, "markerfacecolor": "none"},
 }
 #: By n_p.
-_MARKERS = {2: "v", 3: "<", 4: ">", 5: "p", 6: "^", 7: "d", 8: "8", 9: "h"}
-_MARKERS |= {10: "s", 20: "D", 30: "P", 60: "X"}
+_MARKERS = {2: "v", 3: "s", 4: ">", 5: "p", 6: "^", 7: "d", 8: "8", 9: "h"}
+_MARKERS |= {10: "*", 20: "D", 30: "P", 60: "X"}
 _LARGEST = 60  #: n_p at the light end of the colours, and two at the dark one
 #: Ordered for all colour vision, from blue to an orange; the yellow beyond it fades on white.
 _SHADES = LinearSegmentedColormap.from_list(

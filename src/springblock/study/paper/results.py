@@ -147,7 +147,7 @@ def figure_6(ensembles: BySize) -> Figure:
 
 
 def _draw_time(force: Axes, blocks: Axes, ensembles: BySize, looks: Mapping[int, Look]) -> None:
-    """Draw mean curves; on those of the force, markers at t_max and open ones at t_avg."""
+    """Draw mean curves; on those of the force, markers at t_max."""
     highest = 0.0
     for n_p, runs in ensembles.items():
         curve, look = statistics.whole_curve(runs), looks[n_p]
@@ -155,17 +155,11 @@ def _draw_time(force: Axes, blocks: Axes, ensembles: BySize, looks: Mapping[int,
         mean = curves.draw_mean_force(force, curve, label=name, spread=True, **look)
         curves.draw_detachments(blocks, curve, **look)
         highest = max(highest, float(np.nanmax(mean)))
-        for times, face in (
-            ([r.t_max for r in runs], look["color"]),
-            ([r.t_avg for r in runs], "white"),
-        ):
-            time = float(np.mean(times))
-            height = np.interp(time, curve.time, mean)
-            force.plot(MICRO * time, height, **look, markerfacecolor=face, zorder=3)
+        time = float(np.mean([run.t_max for run in runs]))
+        force.plot(MICRO * time, np.interp(time, curve.time, mean), **look, zorder=3)
     force.plot([], [], color=GREY, **curves.REST, label="fewer runs")
-    for face, name in ((GREY, r"$t_\mathrm{max}$"), ("white", r"$t_\mathrm{avg}$")):
-        sign: Look = {"marker": "o", "linestyle": "none", "markerfacecolor": face}
-        force.plot([], [], color=GREY, **sign, label=name)
+    sign: Look = {"marker": "o", "linestyle": "none", "label": r"$t_\mathrm{max}$"}
+    force.plot([], [], color=GREY, **sign)
     force.set(xlabel="time (µs)", ylabel=FORCE, ylim=(0.0, 1.07 * highest), xlim=(0.0, None))
     blocks.set(xlabel="time (µs)", xlim=force.get_xlim(), yscale="log", ylim=(_FLOOR, 100.0))
     blocks.yaxis.set_major_formatter("{x:g}")
