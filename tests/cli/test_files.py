@@ -8,7 +8,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from springblock.io.parquet import write
-from springblock.study.results import FIGURES
+from springblock.study.results import FIGURES, PAGES
 
 TABLES = [(name, each.tables) for name, each in FIGURES.items() if each.draws == "tables"]
 
@@ -20,8 +20,20 @@ TABLES = [(name, each.tables) for name, each in FIGURES.items() if each.draws ==
             ("figure", name, *["{file}"] * len(of), "--output", "{here}/a.png")
             for name, of in TABLES
         ),
-        ("make", "accuracy", *["{file}"] * 4, "--output", "{here}/a.md"),
-        ("make", "mechanism", *["{file}"] * 3, "--output", "{here}/a.md"),
+        (
+            "make",
+            "accuracy",
+            *["{file}"] * len(PAGES["accuracy"].tables),
+            "--output",
+            "{here}/a.md",
+        ),
+        (
+            "make",
+            "mechanism",
+            *["{file}"] * len(PAGES["mechanism"].tables),
+            "--output",
+            "{here}/a.md",
+        ),
         ("plot", "{file}", "--output", "{here}/a.png"),
         ("animate", "{file}", "--output", "{here}/a.gif"),
         ("table", "{file}"),

@@ -8,17 +8,18 @@ import warnings
 import pytest
 
 from springblock import Material, Pattern, Setup, Surface, simulate
+from springblock.model.defaults import STEP
 from springblock.provenance import PLAN, planned
 from springblock.simulation import plausibility
 
 FLAT, PILLARS = Pattern.flat(12), Pattern.pillars(12, 4, 2)
-FINE = {"law": "slip_weakening", "slip_distance": 5e-8, "spacing": 2.5e-6}
+FINE = {"law": "slip_weakening", "slip_distance": 5e-8, "spacing": 1.25e-6}
 DRAG = {"gamma": 5e12, "duration": 1e-3}
 
 
-def said(pattern=FLAT, runs=1, duration=4e-6, **constants):
+def said(pattern=FLAT, runs=1, duration=4e-6, step=STEP, **constants):
     """Return the warnings of runs in one process."""
-    setup = Setup(Material(**constants))
+    setup = Setup(Material(**constants), step=step)
     surface = Surface.draw(pattern, 0, setup.material)
     plausibility._warn_once.cache_clear()
     with warnings.catch_warnings(record=True) as found:
@@ -39,7 +40,7 @@ def said(pattern=FLAT, runs=1, duration=4e-6, **constants):
             {"pattern": PILLARS, **FINE, **DRAG},
             "static friction = .* exceeds the largest coefficient",
         ),
-        ({"pattern": PILLARS}, "depends on the spacing .* slip_weakening .* 2.5e-06 m .* refine"),
+        ({"pattern": PILLARS}, "depends on the spacing .* slip_weakening .* 1.4e-06 m .* refine"),
         ({"pattern": PILLARS, "law": "velocity_weakening", "speed_scale": 1e-2}, "law velocity_we"),
         ({"pattern": PILLARS, **FINE, "spacing": 1e-5}, "does not resolve slip_distance"),
     ],
@@ -50,13 +51,15 @@ def test_one_sentence_says_what_is_hardly_meant(constants, sentence):
     assert re.search(sentence, found)
 
 
-@pytest.mark.parametrize("constants", [{}, {"slider_velocity": 0.2}, {"pattern": PILLARS} | FINE])
+@pytest.mark.parametrize(
+    "constants", [{}, {"slider_velocity": 0.2}, {"pattern": PILLARS, "step": 5e-9} | FINE]
+)
 def test_usual_and_resolved_runs_are_silent(constants):
     assert said(**constants) == []
 
 
 def test_jobs_of_a_study_are_silent(monkeypatch):
-    monkeypatch.setenv(PLAN, planned("a study"))
+    monkeypatch.setenv(PLAN, planned("a study", []))
     assert said(PILLARS) == []
 
 
