@@ -6,7 +6,8 @@ from typing import Any
 from springblock.analysis.statistics import Interval
 from springblock.io.rows import Row, select
 
-ACCEPTED = 0.1  #: relative difference of l_c from which the interval decides
+#: Registered bounds, from which on the interval decides: of l_c, relative, and of c(r) of fronts.
+ACCEPTED, CLOSE = 0.1, 0.03
 
 
 def values(rows: Sequence[Row]) -> dict[str, Any]:
@@ -28,6 +29,9 @@ def values(rows: Sequence[Row]) -> dict[str, Any]:
         },
         "agreeing": len(lengths) - len(apart),
         "apart": [row | {"found": _interval(row)} for row in apart],
+        "fine": len(fine),
+        "within": sum(_difference(row) <= CLOSE or _is_within(row) for row in fine),
+        "arm": sum(row["simulated_high"] - row["simulated_low"] for row in fine) / len(fine) / 2.0,
         "furthest": max(fine, key=_difference),
         "difference": max(map(_difference, fine)),
         "coarse": max(map(_difference, (row for row in fronts if row not in fine))),
@@ -48,8 +52,11 @@ def _interval(row: Row) -> Interval:
 
 def _agrees(row: Row) -> bool:
     """Whether the prediction lies in the interval, or within 10 % of the simulation."""
-    within = row["simulated_low"] <= row["predicted"] <= row["simulated_high"]
-    return within or abs(row["predicted"] - row["simulated"]) <= ACCEPTED * row["predicted"]
+    return _is_within(row) or _difference(row) <= ACCEPTED * row["predicted"]
+
+
+def _is_within(row: Row) -> bool:
+    return bool(row["simulated_low"] <= row["predicted"] <= row["simulated_high"])
 
 
 def _difference(row: Row) -> float:
