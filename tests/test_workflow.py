@@ -16,7 +16,7 @@ WHOLE = {"configuration": ("config/config.yaml",)}
 DRAWN = {
     name
     for name, figure in FIGURES.items()
-    if {*figure.groups} <= TINY["scenes"].keys() and figure.draws != "tables"
+    if all(map(TINY["scenes"].get, figure.groups)) and figure.draws != "tables"
 }
 
 

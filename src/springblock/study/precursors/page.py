@@ -1,5 +1,6 @@
 """Values of the page on slip precursors."""
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -12,23 +13,21 @@ ACCEPTED, CLOSE = 0.1, 0.03
 
 def values(rows: Sequence[Row]) -> dict[str, Any]:
     """Return what the template names, from the rows of the table `precursors`."""
-    lengths = [row for row in select(rows, quantity="l_c") if row["simulated"] == row["simulated"]]
-    apart = [row for row in lengths if not _agrees(row)]
+    lengths = [
+        row | {"found": _interval(row), "mark": "" if _agrees(row) else "†"}
+        for row in select(rows, quantity="l_c")
+        if not math.isnan(row["simulated"] + row["predicted"])
+    ]
     fronts = [row for row in rows if row["quantity"].endswith("_um")]
     fine = [row for row in fronts if row["spacing"] < 3e-6]
     return {
         "paper": {edge: _of_paper(rows, edge) for edge in ("along", "across")},
-        "lengths": [row | {"found": _interval(row)} for row in lengths],
+        "lengths": lengths,
         "by_what": {
-            what: {
-                row["edge"]: row | {"found": _interval(row)}
-                for row in lengths
-                if row["what"] == what
-            }
+            what: {row["edge"]: row for row in lengths if row["what"] == what}
             for what in dict.fromkeys(row["what"] for row in lengths)
         },
-        "agreeing": len(lengths) - len(apart),
-        "apart": [row | {"found": _interval(row)} for row in apart],
+        "agreeing": sum(map(_agrees, lengths)),
         "fine": len(fine),
         "within": sum(_difference(row) <= CLOSE or _is_within(row) for row in fine),
         "arm": sum(row["simulated_high"] - row["simulated_low"] for row in fine) / len(fine) / 2.0,
