@@ -15,15 +15,15 @@ unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
 .PHONY: all quick full docs site test browser test-slurm test-versions coverage bench bench-ratios setup setup-tests lock clean
 
-# The paper's figures and their errors, in four to seven minutes on two cores.
+# The paper's figures and their errors.
 all: setup
 	$(BIN)/snakemake
 
-# The same figures from small ensembles, in one to two minutes.
+# The same figures from small ensembles.
 quick: setup
 	$(BIN)/snakemake --configfile config/quick.yaml
 
-# The whole study, from which the pages in docs are made, in 40 to 70 minutes.
+# The whole study, from which the pages in docs are made.
 full: setup
 	$(BIN)/snakemake --configfile config/full.yaml
 
