@@ -116,8 +116,12 @@ def damped_loads(transfer: Array, material: Material, shape: tuple[int, int], se
 def avalanche_length(material: Material, share: float) -> float:
     """Return l_c in blocks with T₁ = `share`; 0 without a drop."""
     drop = material.mu_static - material.mu_dynamic
-    z = drop * share / (math.sqrt(2.0) * material.mu_static_std)
-    return -1.0 / math.log1p(-math.erfc(z)) if z else 0.0
+    return decay_length(drop * share / (math.sqrt(2.0) * material.mu_static_std))
+
+
+def decay_length(handed: float) -> float:
+    """Return l_c in blocks by the load that is handed on, over √2 sigma; 0 without any."""
+    return -1.0 / math.log1p(-math.erfc(handed)) if handed else 0.0
 
 
 def one_sided_correlation(material: Material, share: float, r: Array) -> Array:

@@ -10,7 +10,12 @@ from springblock import compute_prelude
 from springblock.analysis.statistics import Peaks
 from springblock.model.material import Material
 from springblock.model.scene import Scene
-from springblock.study.claims.flat import single_events, starts_no_front, strain_left
+from springblock.study.claims.flat import (
+    ensemble_error,
+    single_events,
+    starts_no_front,
+    strain_left,
+)
 from springblock.study.claims.grooves import (
     over_all,
     over_most,
@@ -129,3 +134,9 @@ def test_the_stress_before_any_slip_follows_from_elasticity():
     found = unevenness(scene, Material())
     assert found == pytest.approx(computed.std() / computed.mean(), rel=0.02)
     assert unevenness(Scene(12), Material()) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_the_ensemble_error_falls_with_the_root_of_the_number_of_seeds():
+    scatter = {"ci_low": -0.01984217, "ci_high": 0.01984217, "realisations": 100}
+    assert ensemble_error(scatter, 100) == pytest.approx(0.01, rel=1e-6)
+    assert ensemble_error(scatter, 25) == pytest.approx(0.02, rel=1e-6)

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from springblock.analysis.statistics import Interval
 from springblock.plotting import curves, style
 from springblock.plotting.style import BLACK, BLUE, GREY, MICRO, VERMILION, Look
+from springblock.theory.chain import decay_length
 
 _EDGES: dict[str, Look] = {
     "along": {"color": BLUE, "marker": "D"},
@@ -34,7 +35,7 @@ def _draw_lengths(ax: Axes, cells: pd.DataFrame) -> None:
     drop = cells["mu_static"] - cells["mu_dynamic"]
     handed = drop * cells["t_1"] / (math.sqrt(2.0) * cells["mu_static_std"])
     x = np.geomspace(handed.min() / 1.2, handed.max() * 1.2)
-    ax.plot(x, [-1.0 / math.log(math.erf(each)) for each in x], color=GREY, label="avalanche")
+    ax.plot(x, [decay_length(each) for each in x], color=GREY, label="avalanche")
     for edge, look in _EDGES.items():
         one = cells["edge"] == edge
         columns = ["simulated", "simulated_low", "simulated_high"]

@@ -1,22 +1,15 @@
-"""What is said of errors follows from the tables."""
+"""Realisations whose balance of energy does not close are named."""
 
 import pytest
 
 from springblock.analysis.suspects import suspects
 from springblock.io.identity import identity
 from springblock.model.scene import Scene
-from springblock.study.claims.flat import ensemble_error
 
 
 def rows(errors, n_p=20):
     scene = identity(Scene(120, n_p, n_p))
     return [scene | {"seed": seed, "energy_error": e} for seed, e in enumerate(errors)]
-
-
-def test_the_ensemble_error_falls_with_the_root_of_the_number_of_seeds():
-    scatter = {"ci_low": -0.01984217, "ci_high": 0.01984217, "realisations": 100}
-    assert ensemble_error(scatter, 100) == pytest.approx(0.01, rel=1e-6)
-    assert ensemble_error(scatter, 25) == pytest.approx(0.02, rel=1e-6)
 
 
 def test_a_residual_ten_times_that_of_its_scene_is_suspect():
