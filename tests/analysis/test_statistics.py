@@ -11,7 +11,6 @@ from springblock.analysis.statistics import (
     Interval,
     bootstrap_interval,
     bootstrap_weights,
-    both_peaks,
     cut,
     difference_interval,
     events,
@@ -22,11 +21,11 @@ from springblock.analysis.statistics import (
     number,
     pillar_map,
     pillar_ring,
-    prominence,
     prominence_of_mean,
     standard_error,
     whole_curve,
 )
+from springblock.simulation.peaks import prominence
 from springblock.simulation.run import friction
 
 
@@ -146,15 +145,6 @@ def test_a_mean_is_taken_over_the_runs_that_have_not_ended(rng):
     assert np.isfinite(mean_of_rest(values[:4, 3:4])).all()  # exactly half: two of four
 
 
-def test_the_lesser_peak_is_measured_from_the_valley():
-    assert prominence(np.array([0.0, 10.0, 9.6, 9.8, 0.0])) == pytest.approx(0.02)
-    assert prominence(np.array([0.0, 10.0, 0.0])) == 0.0
-    assert prominence(np.array([0.0, 10.0, 2.0, 5.0, 0.0])) == 0.0  # not under load
-    assert prominence(np.array([0.0, 10.0, 9.6, 10.0, 0.0])) == pytest.approx(0.04)
-    three = np.array([0.0, 10.0, 9.2, 9.8, 9.5, 9.6, 0.0])
-    assert [prominence(three, rank) for rank in (1, 2, 3)] == pytest.approx([1.0, 0.06, 0.01])
-
-
 def test_bins_hold_whole_samples_and_every_detachment_once():
     edges, shares = whole_curve([run(12), run(12)]).binned(1.5)
     np.testing.assert_allclose(edges, [0.0, 1.5, 3.0, 4.5])  # two samples are left out
@@ -188,39 +178,14 @@ def test_rings_hold_each_block_once(size):
     assert np.argwhere(ring["x"]).tolist() == [[0, 1], [0, 2], [3, 1], [3, 2]]
 
 
-def hill(x, place, height, width=4.0):
-    return height * np.exp(-(((x - place) / width) ** 2))
-
-
-def two_peaks(lesser, valley):
-    """Five samples of a force of 2 N at most, with peaks at 1 and 3."""
-    return 2.0 * np.array([0.0, 1.0, valley, lesser, 0.0])
-
-
-X = np.arange(100.0)
-
-
-@pytest.mark.parametrize(
-    ("curve", "peaks"),
-    [
-        (hill(X, 40, 1.0) + hill(X, 60, 0.95), (40, 60)),
-        (hill(X, 40, 1.0) + hill(X, 70, 0.8), None),  # a wave of sliding
-        (X + 1.5 * np.sin(X), None),  # small waves of loading
-        (two_peaks(lesser=0.901, valley=0.5), (1, 3)),  # nine tenths of the largest force
-        (two_peaks(lesser=0.899, valley=0.5), None),
-        (two_peaks(lesser=0.95, valley=0.9399), (1, 3)),  # a hundredth above the valley
-        (two_peaks(lesser=0.95, valley=0.9401), None),
-    ],
-)
-def test_two_load_peaks_are_found_at_the_maxima_of_the_force(curve, peaks):
-    found = both_peaks(curve)
-    assert (found and (found.first, found.second)) == peaks
+def _hill(x):
+    return np.exp(-((x / 4.0) ** 2))
 
 
 def test_the_prominence_of_a_mean_force_is_of_that_and_not_of_single_runs():
     """Peaks of runs at other times average out; a run that has ended counts with its last force."""
     time = np.arange(200.0)
-    forces = [hill(time, 60 + 3 * k, 1.0) + hill(time, 120 - 3 * k, 0.95) for k in range(9)]
+    forces = [_hill(time - 60 - 3 * k) + 0.95 * _hill(time - 120 + 3 * k) for k in range(9)]
     runs = [SimpleNamespace(force=f, normal_force=1.0, onset=slice(None)) for f in forces]
     found, mean = prominence_of_mean(runs), np.mean([run.force for run in runs], axis=0)
     assert float(found.mean) == pytest.approx(prominence(mean))
@@ -280,12 +245,3 @@ def test_numbers_are_written_to_what_the_interval_leaves():
     assert number(Interval(*map(np.array, (-0.064, -0.13, 0.002)))) == "-0.064 [-0.130, 0.002]"
     assert number(Interval(*map(np.array, (0.5, 0.0, 1.0)))) == "0.5 [0.0, 1.0]"
     assert number(Interval(*map(np.array, (0.5, 0.5, 0.5))), " µm") == "0.5 µm"
-
-
-def test_of_several_load_peaks_the_two_most_prominent_count():
-    time = np.arange(500.0)
-    places = [(100, 0.64), (220, 0.62), (300, 0.65), (345, 0.645)]
-    hills = [height * np.exp(-(((time - place) / 15.0) ** 2)) for place, height in places]
-    assert both_peaks(sum(hills))[::2] == (100, 300)
-    assert 240 < both_peaks(hills[1] + hills[2]).valley < 280
-    assert both_peaks(hills[2]) is None

@@ -25,7 +25,8 @@ def written(folder, heights, header="# Width: 40 µm\n# Height: 30 µm\n# Value 
 
 def opened(measured, **more):
     """Open any file as this measurement."""
-    channel = SimpleNamespace(name="Main", index=0, nb_grid_pts=measured.nb_grid_pts, **more)
+    about = {"dim": measured.dim, "physical_sizes": measured.physical_sizes}
+    channel = SimpleNamespace(name="Main", index=0, unit=measured.unit, **about, **more)
     reader = SimpleNamespace(
         channels=[channel], default_channel=channel, topography=lambda channel_index: measured
     )
@@ -56,6 +57,17 @@ def test_a_block_has_the_height_at_its_centre(tmp_path, spacing, x, y):
     np.testing.assert_array_equal(contact, HEIGHTS[np.ix_(y, x)] >= 6)
 
 
+def test_plain_text_and_lists_of_points_need_a_unit_and_a_matrix_its_size(tmp_path):
+    """A matrix of heights in nm, 4 x 3 pixels, 40000 nm wide, and the same as x, y and height."""
+    y, x = np.indices(HEIGHTS.shape)
+    matrix, points = tmp_path / "rough.txt", tmp_path / "rough.xyz"
+    np.savetxt(matrix, HEIGHTS)
+    np.savetxt(points, np.column_stack([1e4 * x.ravel(), 1e4 * y.ravel(), HEIGHTS.ravel()]))
+    how = {"height": 6e-9, "unit": "nm"}
+    for cut in (Cut(matrix, 1e-5, size=4e4, **how), Cut(points, 1e-5, **how)):
+        np.testing.assert_array_equal(cut.mask(), HEIGHTS >= 6)
+
+
 @pytest.mark.parametrize(
     ("detrend", "trend"),
     [("plane", lambda x, y: 30 * x - 7 * y + 2), ("quadratic", lambda x, y: 9 * x**2 - 4 * x * y)],
@@ -74,7 +86,8 @@ def test_heights_come_from_the_channel_that_is_named(tmp_path, monkeypatch):
     heights = [
         SurfaceTopography.Topography(h.T, (40.0, 30.0), unit="µm") for h in (HEIGHTS, -HEIGHTS)
     ]
-    channels = [SimpleNamespace(name=n, index=i, nb_grid_pts=(4, 3)) for i, n in enumerate("ab")]
+    about = {"dim": 2, "physical_sizes": (40.0, 30.0), "unit": "µm"}
+    channels = [SimpleNamespace(name=n, index=i, **about) for i, n in enumerate("ab")]
     reader = SimpleNamespace(
         channels=channels,
         default_channel=channels[0],
@@ -132,7 +145,10 @@ def test_jobs_read_what_was_cut(tmp_path):
 @pytest.mark.parametrize(
     ("header", "how", "sentence"),
     [
-        ("", {"height": 1e-9}, "physical_sizes"),
+        ("", {"height": 1e-9}, "how large the map is; give size and unit"),
+        ("", {"height": 1e-9, "size": 40.0}, "a unit of length; or give unit"),
+        (None, {"height": 1e-9, "size": 40.0}, "its size is .*; leave out size = 40.0"),
+        (None, {"height": 1e-9, "unit": "nm"}, "its unit is .*; leave out unit = nm"),
         ("# Width: 40 µm\n# Height: 30 µm\n", {"height": 1e-9}, "a unit of length"),
         (None, {"height": 1.0}, "no block reaches the height of 1.0 m"),
         (None, {"height": 1e-9, "spacing": 1.0}, "spacing must put 1 to 4096 blocks on each side"),

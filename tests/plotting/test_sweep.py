@@ -20,6 +20,7 @@ def rows(scene, friction, seeds=5):
     """Rows of the table of realisations, whose friction scatters about a mean."""
     rng = np.random.default_rng(7)
     numbers = {"dynamic_friction": 0.6, "t_max": 3e-4, "t_avg": 2.9e-4, "t_first": 1e-4}
+    numbers |= {"prominence": 0.0, "t_quiet": np.nan, "t_width": 1e-4}
     return [
         {**identity(scene), **numbers, "static_friction": friction + 0.01 * noise, "seed": i}
         for i, noise in enumerate(rng.standard_normal(seeds))

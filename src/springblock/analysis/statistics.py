@@ -16,14 +16,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from springblock.model.numbers import Array
 from springblock.model.pattern import Pattern
+from springblock.simulation.peaks import prominence
 from springblock.simulation.run import Run, friction, percent
 
 _LEVEL = 0.95  #: of all intervals
 _RESAMPLES = 2000
 _DIGITS = 5  #: largest number of decimals of a number in words
-#: Least force of a load peak, over the largest force.
-_LOAD_PEAK = 0.9
-PROMINENT = 0.01  #: least prominence of a load peak over the largest force
 #: Longest time between detachments of neighbours in one event, over t_max: the slider adds so
 #: little load in it that a block is released by its neighbour.
 _EVENT = 0.005
@@ -268,30 +266,6 @@ def pillar_ring(size: int, depth: int) -> dict[str, NDArray[np.bool_]]:
     }
 
 
-def _peaks(curve: Array) -> tuple[NDArray[np.intp], Array]:
-    """Return the indices of all peaks of at least `_LOAD_PEAK` of the largest force, prominences.
-
-    Of several largest ones that are equal to the bit, the first counts as the highest.
-    """
-    from scipy.signal import find_peaks, peak_prominences  # slow to import
-
-    highest = curve.max()
-    peaks, _ = find_peaks(curve, height=_LOAD_PEAK * highest)
-    largest = peaks[curve[peaks] == highest]
-    after = np.searchsorted(largest[:-1], np.arange(len(curve)))
-    return peaks, peak_prominences(curve - np.spacing(highest) * after, peaks)[0]
-
-
-def prominence(curve: Array, rank: int = 2) -> float:
-    """Prominence of the second most prominent load peak of a curve, (n,), over the largest force.
-
-    This is the drop of the force between two load peaks, from the lower of them; 0 for a single
-    peak. `rank` selects another peak, in descending order of prominence.
-    """
-    found = np.sort(_peaks(curve)[1])
-    return float(found[-rank]) / float(curve.max()) if len(found) >= rank else 0.0
-
-
 def mean_onsets(runs: Sequence[Run]) -> Array:
     """Return friction of runs up to the ends of their onsets, over the normal force, (k, n).
 
@@ -314,24 +288,6 @@ def prominence_of_mean(runs: Sequence[Run], rank: int = 2) -> Interval:
 
     value, low, high = bootstrap_interval(of_mean, len(runs))
     return Interval(value, np.minimum(low, value), np.maximum(high, value))
-
-
-class Peaks(NamedTuple):
-    """Indices of the two most prominent load peaks of a force curve, and of the lowest between."""
-
-    first: int
-    valley: int
-    second: int
-
-
-def both_peaks(curve: Array) -> Peaks | None:
-    """Find the two most prominent load peaks of a force curve, (n,); None with fewer than two."""
-    peaks, prominences = _peaks(curve)
-    order = np.argsort(prominences)[-2:]
-    if len(order) < 2 or prominences[order[0]] < PROMINENT * curve.max():
-        return None
-    first, second = sorted(map(int, peaks[order]))
-    return Peaks(first, first + int(np.argmin(curve[first:second])), second)
 
 
 def events(times: Array) -> NDArray[np.intp]:

@@ -75,10 +75,17 @@ SUMMARY = pa.schema(
             static_friction="largest friction force of the onset over the normal force",
             dynamic_friction="mean friction force over the normal force from 1.5 times the largest "
             "t_det on; NaN unless this lasts for one reloading",
+            prominence="drop of the force between two load peaks, those of at least 0.9 of the "
+            "largest force, from the lower one, over the largest force",
         ),
         column("t_max", pa.float64(), "s", "time of the largest force of the onset"),
         column("t_avg", pa.float64(), "s", "mean time of first detachment of blocks in contact"),
-        column("t_first", pa.float64(), "s", "time of the first detachment"),
+        *numbers(
+            "s",
+            t_first="time of the first detachment",
+            t_quiet="time from one load peak to the other; NaN with a prominence below 0.01",
+            t_width="time from the first to the last force of at least 0.9 of the largest one",
+        ),
         column("energy_error", pa.float64(), "1", "residual of the energy balance over the work"),
         column("steps", pa.int64(), "1", "number of integration steps"),
     ]

@@ -31,6 +31,8 @@ class Cut:
     height: float | None = None  #: m, least height of the blocks in contact
     channel: str | None = None  #: name of the channel of heights; None: the reader's default
     detrend: str | None = None  #: trend subtracted from the heights before the cut, of `TRENDS`
+    size: float | None = None  #: side along x in `unit`, where the file has none; square pixels
+    unit: str | None = None  #: of all lengths in the file, where it has none, as "um"
 
     @property
     def arguments(self) -> str:
@@ -81,9 +83,9 @@ class Cut:
             channels = {None: reader.default_channel} | {c.name: c for c in reader.channels}
             if self.channel not in channels:
                 raise ValueError(f"channel must be one of {[*channels][1:]}, not {self.channel!r}")
-            measured = reader.topography(channel_index=channels[self.channel].index)
+            measured = self._measured(reader, channels[self.channel])
         if measured.dim != 2 or measured.unit is None:
-            raise ValueError("it must hold a map of heights with a unit of length")
+            raise ValueError("it must hold a map of heights with a unit of length; or give unit")
         metres = measured.to_unit("m")
         metres = metres.detrend(TRENDS[self.detrend]) if self.detrend else metres
         heights: Array = np.ma.filled(np.ma.asarray(metres.heights(), dtype=float), np.nan)
@@ -95,6 +97,21 @@ class Cut:
             for side, size, points in zip(sides, metres.physical_sizes, heights.shape, strict=True)
         )
         return heights[np.ix_(x, y)].T
+
+    def _measured(self, reader: Any, channel: Any) -> Any:
+        """Return a channel of a topography, with size and unit where the file has none."""
+        known: dict[str, Any] = {}
+        for name, own in (("size", channel.physical_sizes), ("unit", channel.unit)):
+            if (given := getattr(self, name)) and own is not None:
+                raise ValueError(f"its {name} is {own}; leave out {name} = {given}")
+        if channel.dim == 2 and channel.physical_sizes is None:
+            if not self.size:
+                raise ValueError("it does not say how large the map is; give size and unit")
+            columns, rows = channel.nb_grid_pts
+            known["physical_sizes"] = self.size, self.size * rows / columns
+        if self.unit:
+            known["unit"] = self.unit
+        return reader.topography(channel_index=channel.index, **known)
 
 
 @dataclass(frozen=True)

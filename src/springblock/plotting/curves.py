@@ -13,6 +13,7 @@ from springblock.analysis.statistics import Interval, LoadCurves
 from springblock.model.numbers import Array
 from springblock.plotting import style
 from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, Look
+from springblock.simulation.peaks import both_peaks
 from springblock.simulation.run import Run, friction, percent
 
 Span = tuple[float, float]  #: of times in µs
@@ -85,7 +86,7 @@ def draw_detachments(ax: Axes, curve: LoadCurves, color: Any, marker: str = "") 
 def draw_load_peaks(force: Axes, blocks: Axes, runs: Sequence[Run], color: Any) -> None:
     """Mark the highest peak of the mean force, its second load peak, and the time between."""
     mean, time = statistics.mean_onsets(runs).mean(axis=0), MICRO * runs[0].time
-    both = statistics.both_peaks(mean)
+    both = both_peaks(mean)
     triangle: Look = {"textcoords": "offset points", "ha": "center", "va": "bottom"}
     for peak in (both.first, both.second) if both else (int(mean.argmax()),):
         force.annotate("▼", (time[peak], mean[peak]), (0.0, 2.0), color=color, **triangle)

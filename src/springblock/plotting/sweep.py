@@ -33,6 +33,9 @@ OBSERVABLES: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "t_max": (r"$t_\mathrm{max}$ (µs)", lambda runs: MICRO * runs["t_max"]),
     "t_avg": (r"$t_\mathrm{avg}$ (µs)", lambda runs: MICRO * runs["t_avg"]),
     "t_first": ("first detachment (µs)", lambda runs: MICRO * runs["t_first"]),
+    "prominence": ("prominence (%)", lambda runs: style.PERCENT * runs["prominence"]),
+    "t_quiet": ("between load peaks (µs)", lambda runs: MICRO * runs["t_quiet"]),
+    "t_width": ("width of the peak (µs)", lambda runs: MICRO * runs["t_width"]),
     "t_max-t_avg": (curves.LAG, lambda runs: MICRO * (runs["t_max"] - runs["t_avg"])),
 }
 

@@ -11,6 +11,7 @@ from springblock.model.notebook import Shown
 from springblock.model.numbers import Array
 from springblock.simulation.energy import Energy
 from springblock.simulation.fields import Fields, dataset
+from springblock.simulation.peaks import both_peaks, prominence, width
 
 if TYPE_CHECKING:
     import xarray
@@ -71,6 +72,22 @@ class Run(Shown):
         """Time of the first detachment, s; NaN without one."""
         detached = self.t_det[np.isfinite(self.t_det)]
         return float(detached.min()) if detached.size else math.nan
+
+    @property
+    def prominence(self) -> float:
+        """Drop of the force between two load peaks, from the lower one, over the largest force."""
+        return prominence(self.force[self.onset])
+
+    @property
+    def t_quiet(self) -> float:
+        """Time from one load peak to the other, s; NaN unless the force drops by 1 % between."""
+        peaks = both_peaks(self.force[self.onset])
+        return float(self.time[peaks.second] - self.time[peaks.first]) if peaks else math.nan
+
+    @property
+    def t_width(self) -> float:
+        """Time from the first to the last force of at least 0.9 of the largest one, s."""
+        return float(self.time[width(self.force[self.onset])])
 
     def to_xarray(self) -> "xarray.Dataset":
         """Return force and detachments in time, and the map of first detachments, with units."""

@@ -13,6 +13,7 @@ from springblock.simulation.simulate import simulate
 
 #: Columns of a table that are properties of a run.
 _OF_RUN = ["static_friction", "dynamic_friction", "t_max", "t_avg", "t_first", "steps", "force"]
+_OF_RUN += ["prominence", "t_quiet", "t_width"]
 _OF_RUN += ["detachments", "switches", "normal_force", "onset_end"]
 
 

@@ -34,7 +34,7 @@ Configuration = Mapping[str, Any]
 #: Keys of all scenes, besides those of `material`.
 TIMES = ("integrator", "step", "sample_interval")
 #: Keys that cut a mask from a topography, besides its file.
-_OF_CUT = ("bearing_area", "height", "channel", "detrend")
+_OF_CUT = ("bearing_area", "height", "channel", "detrend", "size", "unit")
 #: PyYAML's reader in C is ten times as fast, where it is installed.
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 #: A decimal number, as text.

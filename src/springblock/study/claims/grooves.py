@@ -11,16 +11,12 @@ from itertools import chain, product
 import numpy as np
 
 from springblock.analysis.estimate import Estimate
-from springblock.analysis.statistics import (
-    PROMINENT,
-    Peaks,
-    both_peaks,
-    prominence_of_mean,
-)
+from springblock.analysis.statistics import prominence_of_mean
 from springblock.io.records import Record
 from springblock.model.direction import degrees
 from springblock.model.material import Material
 from springblock.model.scene import Scene
+from springblock.simulation.peaks import PROMINENT, Peaks, both_peaks
 from springblock.simulation.run import Run
 from springblock.study.claims import rule, samples, surfaces
 from springblock.study.claims.rule import (

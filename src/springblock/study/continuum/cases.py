@@ -12,7 +12,6 @@ import pyarrow as pa
 from numpy.typing import NDArray
 from tqdm import tqdm
 
-from springblock.analysis.statistics import prominence
 from springblock.io.rows import Row
 from springblock.io.schemas import SCENE, column, numbers, texts
 from springblock.model.material import Material
@@ -20,7 +19,7 @@ from springblock.model.numbers import Array
 from springblock.model.surface import Surface
 from springblock.simulation.prelude import compute_prelude
 from springblock.simulation.resolution import DECAY, ZONE
-from springblock.simulation.run import Run, friction
+from springblock.simulation.run import Run
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
 from springblock.solver.integrators import limit
@@ -243,7 +242,7 @@ def _row(series: Series, n: int, seed: int, predicted: float, run: Run) -> Row:
         "predicted": predicted,
         "simulated": run.static_friction,
         "switches": run.switches[:last].sum() / max(run.detachments[:last].sum(), 1),
-        "prominence": prominence(friction(run)[run.onset]),
+        "prominence": run.prominence,
     }
 
 

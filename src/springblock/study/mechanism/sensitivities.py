@@ -12,18 +12,12 @@ import numpy as np
 import pyarrow as pa
 
 from springblock.analysis.lowest import lowest
-from springblock.analysis.statistics import (
-    Interval,
-    difference_interval,
-    mean_interval,
-    prominence,
-)
+from springblock.analysis.statistics import Interval, difference_interval, mean_interval
 from springblock.io.records import Record
 from springblock.io.rows import Row, limits
 from springblock.io.schemas import column, numbers, texts
 from springblock.model.material import Material
 from springblock.model.scene import Scene, differing
-from springblock.simulation.run import friction
 
 SIZE = 6  #: n_p of the pillars whose times are compared, on which friction is lowest in the paper
 _GROOVE = 2  #: n_s2 of the paper's grooves
@@ -113,7 +107,7 @@ def _quantities(surfaces: Mapping[Scene, Sequence[Record]]) -> Iterator[tuple[st
     for scene, runs in surfaces.items():
         if scene.n_p2:
             name = "prominence" if scene.n_p else "prominence_whole"
-            yield name, mean_interval([prominence(friction(run)[run.onset]) for run in runs])
+            yield name, mean_interval([run.prominence for run in runs])
         else:
             pillars.setdefault(scene.n_blocks, {})[scene.n_p] = runs
     if not pillars:

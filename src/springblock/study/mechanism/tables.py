@@ -7,13 +7,14 @@ import numpy as np
 import pyarrow as pa
 from tqdm import tqdm
 
-from springblock.analysis.statistics import bootstrap_interval, mean_interval, prominence
+from springblock.analysis.statistics import bootstrap_interval, mean_interval
 from springblock.io.identity import identity
 from springblock.io.rows import Row, limits
 from springblock.io.schemas import SCENE, column, numbers, texts
 from springblock.model.numbers import Array
 from springblock.model.scene import Scene
 from springblock.model.surface import Surface
+from springblock.simulation.peaks import prominence
 from springblock.simulation.prelude import compute_prelude
 from springblock.simulation.scenes import setup_of
 from springblock.simulation.simulate import simulate
