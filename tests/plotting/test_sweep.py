@@ -112,6 +112,24 @@ def test_a_line_is_named_by_its_mask():
     assert sweep.draw(lines(one, "slider_velocity"), "slider_velocity", ["t_avg"]).legends
 
 
+def test_laws_and_masks_stand_on_an_axis_by_name_and_no_two_in_one_place():
+    """Coulomb's law first, then by their constants."""
+    slips = {"law": "slip_weakening", "healing": "none"}
+    laws = [Scene(24), *(Scene(24, **slips, slip_distance=d) for d in (1e-7, 5e-8))]
+    found = lines([row for law in laws for row in rows(law, 0.7)], "law")
+    named = dict(zip(found["place"], found["tick"], strict=True))
+    assert named == dict(
+        enumerate(["coulomb", "slip weakening, 5e-08, none", "slip weakening, 1e-07, none"])
+    )
+    assert names(found) == ["as the study"]
+    islands = {name: BlockMap(f"{name}-0123abcd", np.eye(n)) for name, n in (("b", 4), ("a", 6))}
+    found = lines([row for mask in islands.values() for row in rows(Scene(mask=mask), 0.7)], "mask")
+    assert [*found.groupby("place")["tick"].first()] == ["a", "b"]
+    ticks = sweep.draw(found, "mask", ["static_friction"]).axes[0].get_xticklabels()
+    assert [tick.get_text() for tick in ticks] == ["a", "b"]
+    assert "Lines join" not in sweep.caption(found)
+
+
 def test_axes_are_numbers_in_which_two_scenes_differ_that_are_otherwise_alike():
     """n_s follows n_p, and a mask is no number."""
     pillars = [Scene(120, n, n, direction=way) for n in (6, 10) for way in ("x", "y")]

@@ -15,8 +15,10 @@ from springblock.model.scene import Scene, differing
 from springblock.simulation.resolution import lattice
 
 #: Observables of a realisation, in the order of the tables.
-OBSERVABLES = ("static_friction", "dynamic_friction", "t_max", "t_avg", "t_first")
-OBSERVABLES += ("prominence", "t_quiet", "t_width")
+OBSERVABLES = (
+    *("static_friction", "dynamic_friction", "t_max", "t_avg", "t_first"),
+    *("prominence", "t_quiet", "t_width"),
+)
 #: Columns that determine, with the seed, the friction coefficients of a run.
 _THRESHOLDS = {"n_blocks", "n_rows", "edges", "mu_static_field", "mu_dynamic_field", *DRAWN}
 

@@ -46,7 +46,7 @@ def _fields(files: tuple[Path, ...], options: object) -> Figure:
 @click.argument("files", type=INPUT, nargs=-1, required=True)
 @_SEED
 @click.option(
-    "--over", help="Parameter against which all runs are drawn: contact_fraction, n_p, gamma, ..."
+    "--over", help="What all runs are drawn against: contact_fraction, n_p, gamma, law, mask, ..."
 )
 @click.option(
     "--of",

@@ -21,25 +21,30 @@ from springblock.plotting.style import save
 from springblock.provenance import SIMULATE, made_by
 from springblock.simulation.scenes import columns_of, prelude_of, realise
 
-_DRAWN = ("static_friction", "t_max", "t_avg")  #: observables of the figures
-
 
 @click.command("sweep")
 @scenes_options
 @defaulted("--seeds", type=click.IntRange(1), default=10, help="Realisations of each ensemble.")
 @defaulted("--jobs", type=click.IntRange(1), default=1, help="Cores to use.")
+@defaulted(
+    "--of",
+    type=click.Choice(list(plot.OBSERVABLES)),
+    multiple=True,
+    default=("static_friction", "t_max", "t_avg"),
+    help="Observable of the figures. Can be repeated.",
+)
 @click.option(
     "--output",
     type=click.Path(file_okay=False, path_type=Path),
     required=True,
     help="Folder of the results.",
 )
-def sweep(scenes: list[Scene], seeds: int, jobs: int, output: Path) -> None:
+def sweep(scenes: list[Scene], seeds: int, jobs: int, of: tuple[str, ...], output: Path) -> None:
     """Simulate surfaces for several lengths, directions and constants.
 
-    Options of a scene take several values, --n-p 2,4,8, or the ends and the number of evenly spaced
-    ones, --step 5e-9:2e-8:4. The output folder receives the table realisations.parquet, and a
-    figure against each quantity with several values.
+    Options of a scene take several values, --n-p 2,4,8 or --law coulomb,slip_weakening, or the ends
+    and the number of evenly spaced ones, --step 5e-9:2e-8:4. The output folder receives the table
+    realisations.parquet, and a figure against each quantity with several values.
     """
     interval = min(scene.sample_interval for scene in scenes)  # as in a study, one for all
     scenes, tables = [replace(scene, sample_interval=interval) for scene in scenes], []
@@ -53,6 +58,6 @@ def sweep(scenes: list[Scene], seeds: int, jobs: int, output: Path) -> None:
     write(table, output / "realisations.parquet", made_by(SIMULATE))
     for over in axes(scenes):
         found = lines(table.to_pylist(), over)
-        picture = plot.draw(found, over, _DRAWN)
+        picture = plot.draw(found, over, of)
         save(picture, output / f"{over}.png", plot.caption(found))
     click.echo(f"springblock table {output} shows the means, and with --changes how they change")

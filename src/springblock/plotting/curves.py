@@ -191,6 +191,15 @@ def name_places(ax: Axes, places: ArrayLike, scale: str = "log") -> None:
     ax.margins(x=0.1, y=0.1)
 
 
+def name_categories(ax: Axes, names: Sequence[str]) -> None:
+    """Name the places 0, 1, ... of an axis, at an angle where names would overlap."""
+    room = span(ax) / max(1, len(names) - 1)
+    long = style.SMALL * 0.6 * max(map(len, names)) > room
+    turned: Look = {"rotation": 25.0, "ha": "right", "rotation_mode": "anchor"} if long else {}
+    ax.set_xticks(range(len(names)), names, **turned)
+    ax.margins(x=0.1, y=0.1)
+
+
 def span(ax: Axes) -> float:
     """Return the length in pt from the first place of a horizontal axis to the last."""
     return 0.8 * float(ax.bbox.width) * 72.0 / ax.figure.dpi  # margins take the rest

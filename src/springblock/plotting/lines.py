@@ -13,7 +13,16 @@ from springblock.io.rows import Row, scene_of
 from springblock.model.direction import degrees
 from springblock.model.law import LawFile
 from springblock.model.material import LAWS, as_law
-from springblock.model.scene import AXES, CONSTANTS, FIELDS, GEOMETRY, LENGTHS, Scene, differing
+from springblock.model.scene import (
+    AXES,
+    CONSTANTS,
+    FIELDS,
+    GEOMETRY,
+    LENGTHS,
+    OF_LAWS,
+    Scene,
+    differing,
+)
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -21,22 +30,27 @@ if TYPE_CHECKING:
 _DIGEST = re.compile(r"-[0-9a-f]{8}$")  #: at the end of the name of a mask
 
 SHARE = "contact_fraction"  #: axis that is no field of a scene
+NAMED = ("law", "mask", "texture")  #: axes with a name at each place
+#: Of surfaces, which differ with the mask, the texture or the share of blocks in contact.
+_SIZES = ("mask", "n_blocks", "n_rows", "feature", "pitch", "width", *LENGTHS)
 Names = tuple[tuple[str, str], ...]
 
 
 def axes(scenes: Iterable[Scene]) -> list[str]:
-    """Return the numbers, by name, in which two scenes differ that are otherwise the same."""
+    """Return the axes, by name, on which two scenes differ that are otherwise the same."""
     every = list(dict.fromkeys(scenes))
     apart = [name for name in differing(scene.values for scene in every) if _is_axis(name)]
     return [over for over in apart if len({_others(s, over) for s in every}) < len(every)]
 
 
 def _is_axis(name: str) -> bool:
-    return name in AXES or name not in FIELDS  # of a law from a file
+    return name in (*AXES, *NAMED) or name not in FIELDS  # of a law from a file
 
 
 def lines(rows: Iterable[Row], over: str) -> "DataFrame":
     """Return rows of the table `realisations` with their `place` on an axis, and their `line`.
+
+    Places of an axis of names are numbered; `tick` names each.
 
     A line is named by its mask and by what differs from other lines. Lines with one place are left
     out, unless all are such. A ModuleNotFoundError says if seaborn, which draws them, is missing.
@@ -52,7 +66,16 @@ def lines(rows: Iterable[Row], over: str) -> "DataFrame":
     if not scenes:
         varying = ", ".join([*axes(scene for scene, _ in every_scene)[:3], SHARE])
         raise ValueError(f"unknown axis {over!r}; choose for instance {varying}")
-    placed = [{"place": _place(value), "line": _others(s, over)} for s, _, value in scenes]
+    ticks = _ticks({value for _, _, value in scenes}) if over in NAMED else {}
+    order = [*ticks]
+    placed = [
+        {
+            "place": order.index(value) if ticks else _place(value),
+            "tick": ticks.get(value, ""),
+            "line": _others(s, over),
+        }
+        for s, _, value in scenes
+    ]
     every = pd.DataFrame([row | more for (_, row, _), more in zip(scenes, placed, strict=True)])
     if every["place"].nunique() < 2:
         raise ValueError(f"{over} has the same value in all realisations; choose another axis")
@@ -95,7 +118,29 @@ def _value(scene: Scene, row: Row, over: str) -> str | float | None:
     """Return the value of a run on an axis, None if it has none."""
     if over == SHARE:
         return float(row[SHARE])
-    return scene.values.get(over) if _is_axis(over) else None
+    if over == "law":  # with its constants, so that no two laws share a place
+        own = [f"{scene.values[name]:g}" for name in _constants(scene)]
+        return ", ".join([str(scene.law), *own, *([scene.healing] * (scene.healing != "instant"))])
+    value = scene.values.get(over) if _is_axis(over) else None
+    return None if value == "" else value
+
+
+def _constants(scene: Scene) -> list[str]:
+    """Return the names of the constants of the law of a scene."""
+    if isinstance(scene.law, LawFile):
+        return [*scene.law.constants]
+    return [name for name in (LAWS[scene.law],) if name]
+
+
+def _ticks(values: set[str | float]) -> dict[str | float, str]:
+    """Return a name for each value of an axis of names, in their order: Coulomb's law first."""
+    words = {value: str(value).split(", ") for value in map(str, values)}
+    every = sorted(
+        words, key=lambda value: (value[:7] != "coulomb", [*map(_by_size, words[value])])
+    )
+    stems = Counter(_DIGEST.sub("", value) for value in every)
+    short = {value: _DIGEST.sub("", value) for value in every}
+    return {v: (short[v] if stems[short[v]] == 1 else v).replace("_", " ") for v in every}
 
 
 def _place(value: str | float) -> float:
@@ -122,9 +167,14 @@ def _others(scene: Scene, over: str) -> Names:
         del values["n_s"]
     if over in LAWS.values():  # at zero they are Coulomb's law
         del values["law"]
-    if over == SHARE:  # which follows from these
-        for name in ("mask", "n_blocks", "n_rows", "feature", "pitch", "width", *LENGTHS):
-            values.pop(name, None)
+    follows = {
+        SHARE: _SIZES,
+        "mask": _SIZES,
+        "texture": _SIZES,
+        "law": (*OF_LAWS, *_constants(scene)),
+    }
+    for name in follows.get(over, ()):  # from what is on the axis
+        values.pop(name, None)
     return tuple(
         ("N" if name == "n_blocks" else name, str(value))
         for name, value in values.items()

@@ -14,16 +14,19 @@ from springblock.analysis.statistics import mean_interval
 from springblock.model.numbers import Array
 from springblock.model.scene import FIELDS
 from springblock.plotting import curves, style
-from springblock.plotting.lines import in_math, units_of
+from springblock.plotting.lines import NAMED, in_math, units_of
 from springblock.plotting.style import MICRO, Look, span
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
 _CAPTION = (
+    "N = {n_blocks}, {runs} realisations of each ensemble. Symbols, slightly offset: means; bars: "
+    "95 % t intervals over realisations."
+)
+_JOINED = (
     "Lines join ensembles that differ only in the quantity on the axis; with another n_p, n_s "
-    "changes in proportion. N = {n_blocks}, {runs} realisations of each ensemble. Symbols, "
-    "slightly offset: means; bars: 95 % t intervals over realisations."
+    "changes in proportion. "
 )
 
 #: What is drawn of realisations: the label of its axis, and its values there.
@@ -48,7 +51,8 @@ _SIGN, _LETTER, _LINE = 12.0, 1.375, 3.6  #: mm, widths and height in the legend
 def caption(found: "DataFrame") -> str:
     """Return the caption of lines."""
     runs = span(found.groupby(["line", "place"], observed=True).size())
-    return _CAPTION.format(runs=runs, n_blocks=span(found["n_blocks"]))
+    told = _CAPTION.format(runs=runs, n_blocks=span(found["n_blocks"]))
+    return told if found["tick"].any() else _JOINED + told
 
 
 @style.journal
@@ -57,7 +61,7 @@ def draw(found: "DataFrame", over: str, observables: Sequence[str]) -> Figure:
     from seaborn import lineplot  # slow to import
 
     names, places = list(found["line"].cat.categories), np.unique(found["place"])
-    is_named = len(names) > 1 or bool(found["mask"].iloc[0])
+    is_named = len(names) > 1 or (over != "mask" and bool(found["mask"].iloc[0]))
     longest = max(len(re.sub(r"[${}_]", "", name)) for name in names)
     columns = max(1, int(style.COLUMN / (_SIGN + _LETTER * longest)))
     legend = is_named * _LINE * math.ceil(len(names) / columns)
@@ -65,11 +69,12 @@ def draw(found: "DataFrame", over: str, observables: Sequence[str]) -> Figure:
     letters = ";".join(ascii_lowercase[: len(observables)])
     picture, panels = style.panels(*size, letters, sharex=True)
     scale = "log" if 0.0 < _DECADE * places[0] <= places[-1] else "linear"
-    axis = _axis(over, found)
+    axis, ticks = _axis(over, found), found.groupby("place")["tick"].first().tolist()
+    ticks = ticks if any(ticks) else []
     found = found.assign(**{axis: _aside(found, places, scale)})
     look: Look = {"hue": "line", "style": "line", "dashes": False, "err_style": "bars"}
     look |= {"errorbar": lambda sample: mean_interval(sample)[1:], "err_kws": {"elinewidth": 0.8}}
-    look |= {"linewidth": 0.7, "markersize": 4.0, "markeredgewidth": 0.0}
+    look |= {"linewidth": 0.0 if ticks else 0.7, "markersize": 4.0, "markeredgewidth": 0.0}
     for name, values in (("palette", _COLORS), ("markers", _MARKERS)):
         look[name] = list(islice(cycle(values), len(names)))
     for ax, (label, of) in zip(panels, map(OBSERVABLES.__getitem__, observables), strict=True):
@@ -77,7 +82,10 @@ def draw(found: "DataFrame", over: str, observables: Sequence[str]) -> Figure:
             ax.axhline(0.0, **curves.ZERO)
         lineplot(found.assign(**{label: of(found)}), x=axis, y=label, **look, ax=ax)
         ax.legend().remove()
-        curves.name_places(ax, places, scale)
+        if ticks:
+            curves.name_categories(ax, ticks)
+        else:
+            curves.name_places(ax, places, scale)
     if is_named:
         style.legend_above(picture, panels[0], loc="outside upper left", ncols=columns)
     return picture
@@ -99,6 +107,6 @@ def _axis(over: str, found: "DataFrame") -> str:
     """Return the name and unit of an axis, as in the tables."""
     shown = in_math(over.replace("n_blocks", "N")) if over in FIELDS else over
     own = {"direction": "degrees", "contact_fraction": ""}
-    own |= dict.fromkeys(("feature", "pitch", "width"), "m")
+    own |= dict.fromkeys(("feature", "pitch", "width"), "m") | dict.fromkeys(NAMED, "")
     unit = (units_of(found["law"]) | own).get(over, "blocks")
     return shown + (f" ({unit})" if unit else "")
