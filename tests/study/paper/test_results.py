@@ -136,12 +136,6 @@ def test_figure_2_shows_the_run_in_front_of_the_others():
     assert blocks.get_ylim()[0] < per_block  # one block is visible
 
 
-def test_figure_2_refuses_runs_sampled_differently():
-    odd = replace(record(1), time=2.0 * record(1).time)
-    with pytest.raises(ValueError, match="sample interval"):
-        FIGURES["figure_2"].function()([record(0), record(2), odd])
-
-
 def test_figure_3_maps_t_det_over_t_max():
     run = record(0)
     ax = FIGURES["figure_3"].function()([run]).axes[0]
@@ -206,26 +200,6 @@ def test_figure_9_marks_the_load_peaks_of_the_data():
     along = 100.0 * prominence_of_mean(ensemble(80e-6, 110e-6)).mean
     assert f"along {along:.1f} % [" in words
     assert "across 0.0 % [" in words
-
-
-def test_curves_go_on_past_the_shortest_run():
-    """Solid while all runs go on, dotted and over the rest of them as long as half are left."""
-    runs = ensemble(100e-6)  # they end after 700, 697, 694 and 691 samples
-    force, _, detached, _ = drawn("figure_6").axes
-    solid = lines(force)["$n_p$ = 6"]
-    dashed = [line.get_xydata() for line in force.get_lines() if line.get_linestyle() == "--"]
-    (dotted,) = (xy for xy in dashed if len(xy) > 1 and np.array_equal(xy[0], solid[-1]))
-    assert len(solid) == 691
-    shown = dotted[np.isfinite(dotted[:, 1])]
-    assert len(solid) + len(shown) - 1 == 697
-    rest = np.mean([run.force[691:697] / NORMAL_FORCE for run in runs[:2]], axis=0)
-    np.testing.assert_allclose(shown[-3:, 1], rest[-3:])
-    for steps, n_p in zip(detached.patches, sizes(), strict=True):
-        shares = steps.get_data()
-        assert shares.edges[-1] == pytest.approx(138.0)  # whole bins of the longest run
-        blocks = PILLARS.contact.sum()
-        late = np.mean([np.sum(run.t_det > 138e-6) / blocks for run in sizes()[n_p]])
-        assert shares.values.sum() == pytest.approx(100.0 * (1.0 - late), abs=0.01)
 
 
 def points(ax: Axes) -> list[np.ndarray]:
