@@ -38,14 +38,12 @@ def test_an_image_is_seen_upright_however_it_is_stored(saved, mode):
     assert mask.values.dtype == bool
 
 
-@pytest.mark.parametrize("kind", ["png", "tiff", "webp"])
-def test_an_image_is_seen_as_its_camera_was_held(tmp_path, kind):
+def test_an_image_is_seen_as_its_camera_was_held(tmp_path):
     """Stored a quarter turn to the left, which orientation 6 of EXIF turns back."""
     (exif := Image.Exif())[0x0112] = 6
-    file, how = tmp_path / f"a.{kind}", {"lossless": True} if kind == "webp" else {}
     pixels = np.ascontiguousarray(np.rot90(CORNER[::-1]))
-    Image.fromarray(pixels.astype(np.uint8) * 255).save(file, exif=exif, **how)
-    np.testing.assert_array_equal(BlockMap.mask(file).values, CORNER)
+    Image.fromarray(pixels.astype(np.uint8) * 255).save(tmp_path / "a.png", exif=exif)
+    np.testing.assert_array_equal(BlockMap.mask(tmp_path / "a.png").values, CORNER)
 
 
 @pytest.mark.parametrize("kind", [bool, int, np.uint8, float])

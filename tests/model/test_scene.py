@@ -139,9 +139,6 @@ def test_coefficients_are_read_from_their_file_and_matter_in_contact_only():
         Scene(mask=mask, mu_dynamic_field=field([[-1.0, 0.0]]))
 
 
-ONES = field(np.ones((120, 120)))
-
-
 @pytest.mark.parametrize(
     ("given", "sentence"),
     [

@@ -89,16 +89,6 @@ def test_the_default_interval_is_a_multiple_of_the_step(step, velocity, interval
     assert Setup(step=step, sample_interval=advised).every == 3
 
 
-def test_curves_start_at_rest_and_have_one_entry_per_interval_and_fields_one_per_block(run):
-    assert run.time.shape == run.force.shape == run.detachments.shape == run.switches.shape
-    assert (run.time[0], run.force[0], run.detachments[0], run.switches[0]) == (0, 0, 0, 0)
-    np.testing.assert_allclose(np.diff(run.time), 2e-7, rtol=1e-10)  # differences of 1e-4
-    assert run.steps == round(2e-7 / STEP) * (len(run.time) - 1)
-    assert run.t_det.shape == (N, N)
-    assert run.displacement.shape == run.velocity.shape == (2, N, N)
-    assert run.snapshots.shape == (0, 2, N, N)
-
-
 def test_detachments_count_each_contact_block_once_at_its_time(run):
     detached = np.isfinite(run.t_det)
     np.testing.assert_array_equal(detached, PILLARS.contact)
