@@ -41,6 +41,13 @@ def changed(key, to):
     return configuration
 
 
+def expanded(grid, **study):
+    """Ensembles of a group with this grid, alone in a study that passes all checks."""
+    whole = PAPER | {"scenes": {"own": grid}, "figures": {}} | study
+    check(whole, SCHEMA)
+    return ensembles(whole)["own"]
+
+
 def keys(schema):
     """Names of the keys that a schema knows."""
     if isinstance(schema, dict):
@@ -59,8 +66,8 @@ def test_a_constant_may_be_an_axis_of_a_grid():
     """The study's own value makes the scene that other groups have."""
     axes = {"slider_velocity": [5e-4, 1e-3], "gamma": [0, 5000]}
     grid = {"n_blocks": [9], "material": axes, "step": [1e-8, 2e-8], "direction": ["x"], "seeds": 1}
-    scenes = list(ensembles(changed("scenes.fast", to=grid))["fast"])
-    assert len(set(scenes)) == 8
+    scenes = expanded(grid)
+    assert len(scenes) == 8
     assert Scene(9) in scenes
     assert Scene(9, slider_velocity=1e-3, gamma=0, step=1e-8) in scenes
 
@@ -70,13 +77,9 @@ def test_single_values_are_lists_of_one():
     single = {"n_p": 4, "n_s": "n_p", "direction": "x", "step": 1e-8, "material": constants}
     lists = {key: [value] for key, value in single.items()}
     lists["material"] = {key: [value] for key, value in constants.items()}
-    found = []
-    for grid in (single, lists):
-        study = changed("scenes.own", to=grid | {"seeds": 2})
-        check(study, SCHEMA)
-        found.append(ensembles(study)["own"])
-    assert found[0] == found[1]
-    assert len(found[0]) == 1
+    one, other = (expanded(grid | {"seeds": 2}) for grid in (single, lists))
+    assert one == other
+    assert len(one) == 1
 
 
 def test_a_law_ignores_the_constants_of_others(tmp_path):
@@ -85,18 +88,14 @@ def test_a_law_ignores_the_constants_of_others(tmp_path):
     )
     laws = ["coulomb", "slip_weakening", str(tmp_path / "law.py")]
     constants = {"law": laws, "slip_distance": [1e-8, 2e-8], "d_0": [1e-8, 3e-8]}
-    grid = {"n_blocks": 9, "direction": "x", "seeds": 1, "material": constants}
-    study = changed("scenes.own", to=grid)
-    check(study, SCHEMA)
-    scenes = list(ensembles(study)["own"])
+    grid = {"n_blocks": 9, "direction": "x", "seeds": 1}
+    scenes = list(expanded(grid | {"material": constants}))
     assert len(scenes) == 1 + 2 + 2
     assert scenes[0] == Scene(9)
     # A group replaces constants of the study.
     slower = PAPER["material"] | {"law": "slip_weakening", "slip_distance": 1e-8}
-    grid = {"n_blocks": 9, "direction": "x", "seeds": 1, "material": {"law": ["coulomb"]}}
-    study = PAPER | {"material": slower, "scenes": {"own": grid}, "figures": {}}
-    check(study, SCHEMA)
-    assert list(ensembles(study)["own"]) == [Scene(9)]
+    coulomb = grid | {"material": {"law": ["coulomb"]}}
+    assert list(expanded(coulomb, material=slower)) == [Scene(9)]
 
 
 def test_keys_for_anchors_are_no_part_of_the_study():
@@ -173,9 +172,8 @@ def surfaces(tmp_path, monkeypatch):
 
 def test_a_mask_may_have_several_paths(surfaces):
     """One ensemble for each name."""
-    masks = surfaces(mask=["corner.npy", "again/corner.npy", "copy.npy"])
-    check(masks, SCHEMA)
-    names = [str(scene.mask)[:-9] for scene in ensembles(masks)["own"]]
+    masks = {"mask": ["corner.npy", "again/corner.npy", "copy.npy"], "direction": "x", "seeds": 4}
+    names = [str(scene.mask)[:-9] for scene in expanded(masks)]
     assert names == ["corner", "copy"]
 
 
