@@ -7,8 +7,9 @@ import pyarrow.parquet as pq
 import pytest
 import xarray
 
-from springblock import read
+from springblock import Prelude, read
 from springblock.simulation.fields import Fields
+from springblock.simulation.prelude import HOLDING
 
 FLAT = ("--n-blocks", 6)
 ONE = ("--first-seed", 3, "--last-seed", 3)
@@ -19,15 +20,29 @@ def test_an_integrator_is_compiled_with_a_law(springblock):
     assert said == "compiled: leapfrog with the friction law slip_weakening and free edges\n"
 
 
-def test_a_prelude_changes_nothing(springblock, tmp_path):
+@pytest.fixture
+def own(tmp_path):
+    """Options of a surface of one's own, whose coefficients are known."""
+    files = {"--mask": np.eye(6) > 0.0, "--mu-static-field": np.full((6, 6), 0.9)}
+    files |= {"--mu-dynamic-field": np.full((6, 6), 0.5)}
+    for option, values in files.items():
+        np.save(tmp_path / f"{option}.npy", values)
+    return [word for option in files for word in (option, tmp_path / f"{option}.npy")]
+
+
+@pytest.mark.parametrize("known", [False, True], ids=["drawn", "from files"])
+def test_a_prelude_changes_nothing(springblock, tmp_path, own, known):
+    """With known coefficients it has one state; means that nothing is drawn with do not matter."""
+    scene = (*own, "--mu-static", "0.1") if known else FLAT
     prelude, with_it, without = (tmp_path / name for name in ("p.npz", "with", "without"))
-    springblock("prelude", *FLAT, "--output", prelude)
-    springblock("simulate", *FLAT, *ONE, "--prelude", prelude, "--output", with_it)
-    springblock("simulate", *FLAT, *ONE, "--output", without)
+    springblock("prelude", *scene, "--output", prelude)
+    springblock("simulate", *scene, *ONE, "--prelude", prelude, "--output", with_it)
+    springblock("simulate", *scene, *ONE, "--output", without)
     tables = [pq.read_table(file) for file in (with_it, without)]
     assert tables[0].schema.equals(tables[1].schema, check_metadata=True)
     skipping, plain = (repr(table.to_pylist()) for table in tables)
-    assert skipping == plain  # to the last digit
+    assert skipping == plain  # to the last digit, NaN outside the contact included
+    assert len(Prelude.read(prelude).samples) == (1 if known else len(HOLDING))
 
 
 def test_a_batch_holds_every_seed_and_says_how_it_was_computed(springblock, tmp_path):
