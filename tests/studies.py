@@ -5,7 +5,6 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -99,12 +98,6 @@ class Study:
         (self / name).write_text(yaml.safe_dump(configuration))
         return name
 
-    def program(self, name: str, text: str) -> None:
-        """Write a program that is found before all others of its name."""
-        (self / "bin").mkdir(exist_ok=True)
-        (self / "bin" / name).write_text(text)
-        (self / "bin" / name).chmod(0o755)
-
     def edit(self, module: str, old: str = "", new: str = "\n# another line\n") -> None:
         """Replace a piece of a module, or add a comment, in a package of the study's own."""
         if not (self / "src").exists():
@@ -119,7 +112,7 @@ class Study:
         """As if activated, with the study's own package or else that of this repository."""
         own = self / "src"
         sources = [own if own.exists() else ROOT / "src", os.environ.get("PYTHONPATH")]
-        programs = [self / "bin", Path(sys.executable).parent, os.environ["PATH"]]
+        programs = [Path(sys.executable).parent, os.environ["PATH"]]
         paths = {"PYTHONPATH": sources, "PATH": programs}
         joined = {name: os.pathsep.join(map(str, filter(None, paths[name]))) for name in paths}
         return {**os.environ, **joined}
@@ -170,21 +163,3 @@ class Study:
             str(file.relative_to(self / results)): repr(pq.read_table(file).to_pylist())
             for file in found
         }
-
-
-def places(schema: dict[str, Any], path: tuple[Any, ...] = ()) -> Iterator[Any]:
-    """Paths to all that a schema takes, with what it says there; names of one's own are `own`."""
-    while "$ref" in schema:
-        reference = SCHEMA["$defs"][schema["$ref"].split("/")[-1]]
-        schema = {key: schema[key] for key in schema if key != "$ref"} | reference
-    yield path, schema
-    inner = dict(schema.get("properties", {}))
-    if isinstance(schema.get("additionalProperties"), dict):
-        inner["own"] = schema["additionalProperties"]
-    if "items" in schema:
-        inner[0] = schema["items"]
-    for name, part in inner.items():
-        yield from places(part, (*path, name))
-    choices = [schema[key] for key in ("then", "else") if key in schema]
-    for part in [*schema.get("anyOf", []), *choices]:
-        yield from places(part, path)

@@ -1,4 +1,4 @@
-"""What the pages say is what the code writes, knows and has computed."""
+"""What the pages say is what the code writes, knows and has computed; `make site` checks links."""
 
 import csv
 import re
@@ -20,9 +20,6 @@ PAGES = {
     file.stem: file.read_text(encoding="utf-8")
     for file in [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *ROOT.glob("docs/*.md")]
 }
-
-LINKING = ["README.md", "CONTRIBUTING.md", "config/README.md"]
-LINKING += [str(file.relative_to(ROOT)) for file in sorted(ROOT.glob("docs/**/*.md"))]
 
 
 def symbols(heading):
@@ -65,24 +62,6 @@ def test_the_readme_has_the_findings_that_reports_show():
     assert found == FILE.read_text(encoding="utf-8")
 
 
-def anchors(text):
-    """Places of a page that a link may name: its headings, as GitHub writes them, and its terms."""
-    headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
-    words = (re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings)
-    return {*words, *re.findall(r'<a id="([^"]+)">', text)}
-
-
-@pytest.mark.parametrize("page", LINKING, ids=str)
-def test_links_between_pages_lead_to_files_and_headings(page):
-    text = re.sub(r"^```.*?^```", "", (ROOT / page).read_text(encoding="utf-8"), flags=re.S | re.M)
-    for link in re.findall(r'(?:\]\(|href="|src=")([^)"\s]+)', text):
-        if not link.startswith("https://"):
-            name, _, anchor = link.partition("#")
-            target = (ROOT / page).parent / name if name else ROOT / page
-            assert target.exists(), link
-            assert not anchor or anchor in anchors(target.read_text(encoding="utf-8")), link
-
-
 def test_commands_that_pages_show_are_known_with_their_options():
     """Those of the README, the lesson and pages of tasks are run as well."""
     context, shown = click.Context(main), 0
@@ -102,12 +81,3 @@ def test_every_public_name_is_in_the_reference():
     shown = [path.rsplit(".", 1) for path in re.findall(r"^::: (.+)$", page, re.MULTILINE)]
     found = {name: resolve_name(f"{module}:{name}") for module, name in shown}
     assert found == {name: getattr(springblock, name) for name in springblock.__all__}
-
-
-def test_every_page_is_in_the_navigation_of_the_site():
-    """Files, not headings: `make site` checks all links."""
-    configured = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
-    shown = re.findall(r": (\S+\.(?:md|ipynb))$", configured, re.MULTILINE)
-    docs = [*ROOT.glob("docs/**/*.md"), *ROOT.glob("docs/*.ipynb"), *ROOT.glob("config/**/*.md")]
-    assert {file.relative_to(ROOT).as_posix() for file in docs} <= {*shown}
-    assert all((ROOT / name).exists() for name in shown)

@@ -15,7 +15,7 @@ from studies import FEWER, Study
 
 EXAMPLE = "config/examples/islands.yaml"
 #: Names that a shell would take apart or run, and results that lie deeper.
-MASK, WEAK, RESULTS = "my masks/islands (1), ü.png", "weak mu.npy", "my 'results'/ü $(a)"
+MASK, WEAK, RESULTS = "my masks/$(a) 'b' (1), ü.png", "weak mu.npy", "my 'results'/ü $(a)"
 ISLANDS = np.indices((12, 12)).sum(axis=0) % 5 > 1
 WEIBULL = {"distribution": ["weibull"], "correlation_length": [3e-5]}
 CORRELATED = {"correlation_length": [2e-5]}
@@ -102,14 +102,6 @@ def test_coefficients_from_files_are_not_drawn(study):
     mu, weak = (BlockMap.coefficients(study / file) for file in ("mu.npy", WEAK))
     (run,) = records(study, mu_static_field=str(mu), mu_dynamic_field=str(weak), direction="y")
     assert_same(run, Surface(ISLANDS, mu.values, weak.values), direction="y")
-
-
-def test_a_changed_image_is_another_surface(study, tmp_path):
-    other = study.copied(tmp_path / "study")
-    Image.fromarray(~ISLANDS).save(other / MASK)
-    assert name(other) != name(study)
-    jobs = other.planned("--", "surfaces")
-    assert (jobs["prelude"], jobs["simulate_batch"], jobs["surfaces"]) == (2, 2, 1)
 
 
 def test_rectangles_and_periodic_edges_are_simulated_as_in_python(study):

@@ -6,6 +6,7 @@ import sys
 import tomllib
 from pathlib import Path
 
+import pytest
 import yaml
 
 ROOT = Path(__file__).parents[1]
@@ -63,6 +64,20 @@ def test_the_solver_and_its_commands_need_nothing_of_the_study(tmp_path):
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert {"run.png", "a.pdf", "b.pdf", "c.gif"} <= {file.name for file in tmp_path.iterdir()}
+
+
+@pytest.mark.parametrize(
+    ("module", "slow"),
+    [
+        ("springblock", {"matplotlib", "numba", "pandas", "PIL", "pyarrow", "scipy", "tqdm"}),
+        ("springblock.study.results", {"matplotlib", "pandas", "scipy"}),  # read in a dry run
+    ],
+)
+def test_nothing_slow_is_imported_before_it_is_needed(module, slow):
+    script = f"import sys, {module}; print(*sys.modules)"
+    loaded = subprocess.check_output([sys.executable, "-c", script], text=True).split()
+    assert module in loaded
+    assert not slow & {*loaded}
 
 
 def test_no_result_rests_on_docstrings():

@@ -11,7 +11,7 @@ import psutil
 import pyarrow.parquet as pq
 import pytest
 
-from springblock.provenance import PLAN, SIMULATE, code_version, planned
+from springblock.provenance import PLAN, SIMULATE, planned
 from studies import FEWER, Study
 
 TARGETS = ("simulate", "aggregate", "correlations", "figure_6")
@@ -152,21 +152,6 @@ def test_a_damaged_file_is_refused_by_name(study, springblock, tmp_path, pattern
     assert said.startswith(f"Error: {file} is ")
     assert said.endswith("delete it, and `snakemake` makes it again")
     assert not list(tmp_path.glob("a.*"))
-
-
-def test_code_that_changes_while_a_study_runs_is_noticed(springblock, tmp_path, monkeypatch):
-    """The job compares the bytes of its sources with those of the plan; nothing is written."""
-    plan = planned("0123", [SIMULATE])
-    words = "simulate", "--n-blocks", 4, "--output", tmp_path / "a.parquet"
-    monkeypatch.setenv(PLAN, plan)
-    springblock(*words)
-    made = pq.read_schema(tmp_path / "a.parquet").metadata
-    assert made[b"code_version"].decode() == code_version(SIMULATE)
-    (tmp_path / "a.parquet").unlink()
-    monkeypatch.setenv(PLAN, plan.replace('"]', 'x"]'))  # the digest of sources
-    said = springblock(*words, refused=True)
-    assert said == "Error: the code changed while the study ran; run `snakemake` again"
-    assert not (tmp_path / "a.parquet").exists()
 
 
 def test_an_edit_of_the_solver_stops_a_running_study(study):

@@ -1,23 +1,12 @@
-"""Quoting of paths in commands, unforeseen errors, and pickled objects."""
+"""Quoting of paths in rules, unforeseen errors, and pickled objects."""
 
 import re
-import shlex
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from springblock.model.blockmap import BlockMap
-from springblock.model.scene import Scene
 from springblock.simulation.prelude import Prelude
 from studies import ROOT, Study
-
-
-@pytest.mark.parametrize("text", ["$(touch a).png", "a 'b'.png", "{input}.png", "नमस्ते.png"])
-def test_commands_quote_every_path(text):
-    scene = Scene(mask=BlockMap("own-12345678", np.ones((3, 3), bool), Path(text)))
-    words = shlex.split(scene.options)
-    assert words[words.index("--mask") + 1] == text
 
 
 def test_rules_quote_every_path():

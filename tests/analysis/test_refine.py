@@ -40,8 +40,15 @@ def test_friction_has_converged_where_halving_the_spacing_changes_less_than_a_pe
 
 
 def test_the_observed_order_is_that_of_the_changes():
-    assert refined(1.0 + 0.16, 1.0 + 0.04, 1.0 + 0.01).order == pytest.approx(2.0)
+    found = refined(1.0 + 0.16, 1.0 + 0.04, 1.0 + 0.01)
+    assert found.order == pytest.approx(2.0)
+    assert "observed order 2.0; " in repr(found)
     assert np.isnan(refined(0.7, 0.68, 0.64).order)
+
+
+def test_one_lattice_shows_no_convergence():
+    with pytest.raises(ValueError, match="levels must be at least 2, not 1"):
+        refine(Pattern.pillars(12, 3, 3), Setup(), levels=1)
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,6 @@
 
 import sys
 import threading
-from importlib.metadata import version
 
 import numpy as np
 import pytest
@@ -66,10 +65,6 @@ def test_tasks_run_at_the_same_time_and_their_errors_are_raised():
     with pytest.raises(ValueError, match="no surface"):
         list(in_threads([fails] * 99, jobs=1))
     assert len(started) == 1
-
-
-def test_the_version_is_that_of_the_package():
-    assert springblock.__version__ == version("springblock")
 
 
 @pytest.mark.parametrize("name", ["seeds", "jobs"])

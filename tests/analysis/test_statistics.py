@@ -55,39 +55,6 @@ def test_intervals_are_as_wide_as_students_t(rng):
     assert standard_error(np.array([1.0, 3.0])) == pytest.approx(1.0)
 
 
-def test_bca_covers_other_statistics_of_ten_better_than_percentiles_do(rng):
-    """The standard deviation of waiting times: biased, and its scatter grows with it."""
-    plain, bca = [], []
-    for sample in rng.exponential(1.0, (300, 10)):
-
-        def deviation(weights, sample=sample):
-            return np.sqrt(np.maximum(weights @ sample**2 - (weights @ sample) ** 2, 0.0))
-
-        bca.append(bootstrap_interval(deviation, 10)[1:])
-        plain.append(np.percentile(deviation(bootstrap_weights(10)), (2.5, 97.5)))
-    covered = [np.mean([low < 1.0 < high for low, high in limits]) for limits in (plain, bca)]
-    assert covered[0] + 0.02 < covered[1] < 0.96
-
-
-def test_intervals_of_two_samples_cover_as_often_as_they_say():
-    """95 of 100, within three standard errors of a count, and fewer with so few realisations."""
-    rng = np.random.default_rng(1)
-    hits, trials, true = 0, 200, 0.5
-    for _ in range(trials):
-        samples = rng.normal(1.5, 1.0, 20), rng.normal(1.0, 0.5, 30)
-        found = interval_of_means(np.subtract, samples)
-        hits += bool(found.low <= true <= found.high)
-    assert 0.95 - 3.0 * np.sqrt(0.95 * 0.05 / trials) - 0.02 < hits / trials < 0.995
-
-
-def test_every_sample_is_resampled_by_itself():
-    """The interval of a sum is that of its only varying part."""
-    samples = np.zeros(5), np.random.default_rng(0).standard_normal(20)
-    both = interval_of_means(np.add, samples)
-    alone = interval_of_means(np.positive, samples[1:])
-    assert both.high - both.low == pytest.approx(alone.high - alone.low, rel=0.15)
-
-
 def test_the_interval_is_scipys_bca(rng):
     """From the same random numbers, for one sample and for several."""
     samples = rng.exponential(size=12), rng.normal(3.0, 1.0, 30)

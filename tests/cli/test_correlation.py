@@ -8,31 +8,31 @@ import pytest
 
 from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH
 
+GROOVES = ("--n-p2", 3, "--n-s2", 1)
+
 
 @pytest.fixture
 def outputs(tmp_path):
     return ("--output-correlation", tmp_path / "c", "--output-length", tmp_path / "l")
 
 
-def test_sides_along_both_axes_are_correlated(springblock, pillars, outputs, tmp_path):
-    springblock("correlation", *pillars, *outputs)
+@pytest.mark.parametrize(
+    ("scene", "sides"),
+    [
+        (("--n-p", 6, "--n-s", 6), {"x", "y"}),
+        (("--n-p", 7, "--n-s", 5, *GROOVES), {"x", "grooves"}),
+        (("--n-p", 7, "--n-s", 5, *GROOVES, "--n-p3", 1, "--n-s3", 1, "--along-3", "x"), {"x"}),
+    ],
+)
+def test_sides_and_edges_along_grooves_are_correlated_where_they_are_not_cut(
+    springblock, batch, outputs, tmp_path, scene, sides
+):
+    springblock("correlation", batch(0, 2, *scene), *outputs)
     for name, schema in (("c", CORRELATION), ("l", CORRELATION_LENGTH)):
         table = pq.read_table(tmp_path / name)
         assert table.schema.names == schema.names
-        assert set(table["side"].to_pylist()) == {"x", "y"}
+        assert set(table["side"].to_pylist()) == sides
         assert set(table["realisations"].to_pylist()) == {3}
-
-
-@pytest.mark.parametrize(
-    ("third", "sides"),
-    [((), {"x", "grooves"}), (("--n-p3", 1, "--n-s3", 1, "--along-3", "x"), {"x"})],
-)
-def test_edges_along_grooves_are_correlated_where_they_are_not_cut(
-    springblock, batch, outputs, tmp_path, third, sides
-):
-    scene = ("--n-p", 7, "--n-s", 5, "--n-p2", 3, "--n-s2", 1, *third)
-    springblock("correlation", batch(0, 2, *scene), *outputs)
-    assert set(pq.read_table(tmp_path / "c")["side"].to_pylist()) == sides
 
 
 def test_surfaces_without_sides_and_two_scenes_are_refused(

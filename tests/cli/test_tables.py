@@ -104,24 +104,6 @@ def test_a_difference_is_paired_where_seeds_are_the_same(
     assert row.items() <= same.items()
 
 
-def test_changes_of_the_same_seeds_at_two_dampings_count_once(springblock, batch, tmp_path):
-    """By velocity alone: from the lowest to each other one, the mean over both dampings."""
-    files = [
-        batch(0, 2, "--slider-velocity", speed, "--gamma", gamma)
-        for speed in ("7e-4", "1e-3", "5e-4")
-        for gamma in ("0", "5e3")
-    ]
-    output, by = tmp_path / "by.csv", ("--by", "slider_velocity", "--of", "t_avg")
-    springblock("table", *files, "--changes", *by, "--output", output)
-    rows = written(output)
-    assert [row["to"] for row in rows] == ["0.0007", "0.001"]
-    times = np.array([[run.t_avg for run in read(file)] for file in files])
-    for row, faster in zip(rows, (times[:2], times[2:4]), strict=True):
-        exact = ttest_1samp(faster.mean(axis=0) - times[4:].mean(axis=0), 0.0).confidence_interval()
-        found = [float(row[f"t_avg_{end}"]) for end in ("low", "high")]
-        assert found == pytest.approx(list(exact), rel=1e-9)
-
-
 def test_directions_are_compared_with_the_smallest_angle(springblock, batch, tmp_path):
     """Which is x: as text, 30 and 45 would come before it."""
     files = [batch(0, 1, "--direction", angle) for angle in ("45", "y", "x", "30", "-20")]

@@ -1,7 +1,5 @@
 """Stored runs are read as they were written."""
 
-import subprocess
-import sys
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -47,14 +45,6 @@ def test_runs_of_several_files_are_in_the_order_of_their_seeds(springblock, tmp_
     assert not any(len(run.snapshots) for run in read_records([late, early]))
     with pytest.raises(ValueError, match="both hold seed 9"):
         read_records([late, early, Path(str(late))])
-
-
-def test_nothing_slow_is_imported_before_it_is_needed():
-    script = "import sys, springblock; print(*sys.modules)"
-    loaded = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
-    assert loaded.returncode == 0, loaded.stderr
-    slow = {"matplotlib", "numba", "pandas", "PIL", "pyarrow", "scipy", "tqdm"}
-    assert not slow & set(loaded.stdout.split())
 
 
 def test_realisations_are_sorted_by_scene():

@@ -103,6 +103,9 @@ def test_a_grid_has_every_combination_in_the_order_of_the_fields():
     laws = {"slip_distance": [1e-8, 2e-8], "law": ["coulomb", "slip_weakening"]}
     rows = [(row["law"], row.get("slip_distance")) for row in expand(laws)]
     assert rows == [("coulomb", None)] * 2 + [("slip_weakening", 1e-8), ("slip_weakening", 2e-8)]
+    file = Path(__file__).parents[2] / "config/examples/exponential_weakening.py"
+    ways = [row.get("d_0") for row in expand({"d_0": [1e-8, 2e-8], "law": ["coulomb", str(file)]})]
+    assert ways == [None, None, 1e-8, 2e-8]
 
 
 def test_a_mask_replaces_the_pattern():
@@ -139,12 +142,10 @@ def test_coefficients_are_read_from_their_file_and_matter_in_contact_only():
         Scene(mask=mask, mu_dynamic_field=field([[-1.0, 0.0]]))
 
 
-ONES = field(np.ones((120, 120)))
-
-
 @pytest.mark.parametrize(
     ("given", "sentence"),
     [
+        ({"n_blocks": 0}, "the surface has no size; give n_blocks or a mask"),
         ({"mask": CORNER}, "n_blocks and n_rows must be those of the mask, 3 and 2"),
         ({"mask": replace(CORNER, values=None), **STRIPS}, "mask cannot be combined with n_p, n_s"),
         ({"mask": replace(CORNER, values=None), "n_p2": 8}, "mask cannot be combined with n_p2"),
@@ -159,7 +160,7 @@ ONES = field(np.ones((120, 120)))
 )
 def test_invalid_scenes_are_refused(given, sentence):
     with pytest.raises(ValueError, match=f"^{sentence}"):
-        Scene(120, **given)
+        Scene(**{"n_blocks": 120, **given})
 
 
 def test_sides_are_whole_and_long_enough():

@@ -51,6 +51,9 @@ def test_a_scene_has_the_blocks_of_its_texture_and_can_be_made_from_its_row():
     assert (scene.n_blocks, scene.level) == (120, -1)
     assert Scene(**dict(scene.items())) == scene
     assert "--n-blocks" not in scene.options
+    made = Texture("holes", FEATURE, PITCH, 6e-4, 5e-6)
+    np.testing.assert_array_equal(scene.contact, made.contact)
+    assert "holes of 8e-05 m at 0.00015 m, 0.0006 x 0.0006 m" in repr(made)
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,7 @@ from matplotlib.figure import Figure
 from springblock.io.records import Record
 from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
-from springblock.study.results import FIGURES
-from study.paper.test_results import ensemble, record
+from study.paper.test_results import draw, ensemble, record
 
 ISLANDS = np.indices((6, 9)).sum(axis=0) % 4 > 1
 
@@ -27,9 +26,7 @@ def on_islands(number: int) -> list[Record]:
 
 
 def draw_surfaces(number: int = 3) -> Figure:
-    return FIGURES["surfaces"].function()(
-        {name: on_islands(number) for name in ("first", "second")}
-    )
+    return draw("surfaces", {name: on_islands(number) for name in ("first", "second")})
 
 
 def draw_levels() -> Figure:
@@ -39,7 +36,7 @@ def draw_levels() -> Figure:
     made = {
         (*pattern, way): runs for pattern in patterns for way, runs in (("x", along), ("y", across))
     }
-    return FIGURES["supplement_levels"].function()(made)
+    return draw("supplement_levels", made)
 
 
 DRAWINGS = {
@@ -64,6 +61,6 @@ def test_a_row_shows_the_mask_the_mean_times_and_the_force():
 def test_a_block_that_has_not_let_go_in_a_run_has_no_mean_time():
     one, other = on_islands(2)
     short = replace(other, t_det=np.where(np.arange(9) < 8, np.nan, other.t_det))
-    (image,) = FIGURES["surfaces"].function()({"short": [one, short]}).axes[1].images
+    (image,) = draw("surfaces", {"short": [one, short]}).axes[1].images
     known = np.isfinite(np.ma.filled(image.get_array(), np.nan))
     np.testing.assert_array_equal(known, ISLANDS & (np.arange(9) == 8))

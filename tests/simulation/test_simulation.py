@@ -89,16 +89,6 @@ def test_the_default_interval_is_a_multiple_of_the_step(step, velocity, interval
     assert Setup(step=step, sample_interval=advised).every == 3
 
 
-def test_curves_start_at_rest_and_have_one_entry_per_interval_and_fields_one_per_block(run):
-    assert run.time.shape == run.force.shape == run.detachments.shape == run.switches.shape
-    assert (run.time[0], run.force[0], run.detachments[0], run.switches[0]) == (0, 0, 0, 0)
-    np.testing.assert_allclose(np.diff(run.time), 2e-7, rtol=1e-10)  # differences of 1e-4
-    assert run.steps == round(2e-7 / STEP) * (len(run.time) - 1)
-    assert run.t_det.shape == (N, N)
-    assert run.displacement.shape == run.velocity.shape == (2, N, N)
-    assert run.snapshots.shape == (0, 2, N, N)
-
-
 def test_detachments_count_each_contact_block_once_at_its_time(run):
     detached = np.isfinite(run.t_det)
     np.testing.assert_array_equal(detached, PILLARS.contact)
@@ -133,19 +123,6 @@ def test_a_duration_of_whole_intervals_is_sampled_to_its_end():
         run = simulate(uniform(2, 1.0, 0.6), Setup(sample_interval=4e-8), duration=duration)
         assert len(run.time) == number + 1
         assert run.time[-1] == pytest.approx(duration, rel=1e-14, abs=0)
-
-
-def test_a_snapshot_is_the_end_of_a_shorter_run():
-    scene = drawn(PILLARS, seed=1)
-    times = (4e-6, 1.5e-4, 1.8e-4)
-    long = simulate(scene, duration=2e-4, snapshot_times=times)
-    assert long.snapshots.shape == (3, 2, N, N)
-    assert same(long, simulate(scene, duration=2e-4))
-    for time, u, v in zip(times, long.snapshots, long.fields.velocity, strict=True):
-        short = simulate(scene, duration=time)
-        assert short.displacement.tobytes() == u.tobytes()
-        assert short.velocity.tobytes() == v.tobytes()
-        assert same(long, short, samples=len(short.time))
 
 
 def test_blocks_without_a_measured_value_are_not_in_contact():
@@ -244,7 +221,6 @@ def array(value, dtype=float, shape=(2, 2)):
         ({"contact": array(1.0)}, "contact must be an array of bool, or of 0 and 1"),
         ({"contact": array(True, bool, (2,))}, r"contact must have the shape \(N_y, N_x\)"),
         ({"contact": array(True, bool, (2, 5000))}, r"\(2, 5000\); .* may have at most 4096"),
-        ({"contact": array(True, bool, (0, 2))}, "contact is False everywhere"),
         ({"contact": array(False, bool)}, "contact is False everywhere"),
         ({"contact": [[0, 1], [1, -1]]}, "contact must hold bool, or 0 and 1, not -1"),
         ({"mu_static": array(1, bool)}, "mu_static must be an array of real numbers"),
@@ -267,9 +243,7 @@ def array(value, dtype=float, shape=(2, 2)):
         ({"step": 3e-8, "sample_interval": 2e-7}, "sample_interval must be a multiple of step"),
         ({"sample_interval": 5e-9}, "sample_interval must be a multiple of step"),
         ({"sample_interval": 1e308}, "sample_interval must be a multiple of step"),
-        ({"sample_interval": math.nan}, "sample_interval must be finite and positive"),
         ({"duration": 1e-7}, "duration must be at least one sample_interval"),
-        ({"duration": -1.0}, "duration must be finite and positive"),
         ({"duration": 1e9}, r"5e\+16 steps of 4 blocks would take 29 years"),
         ({"duration": 2e3}, "sample_interval = 2e-07 s is too short for a duration of 2000 s"),
         ({"duration": "long", "snapshot_times": [2e-7]}, "duration must be a number"),
@@ -324,12 +298,6 @@ def test_a_surface_is_simulated_with_the_coefficients_it_was_drawn_with(
     assert simulate(given, setup, duration=2e-6).steps > 0
 
 
-def test_a_drawn_surface_takes_any_other_constant():
-    others = {"gamma": 0.0, "slider_velocity": 1e-3, "spacing": 2e-5, "law": "slip_weakening"}
-    other = Material(**others, slip_distance=1e-8)
-    assert simulate(drawn(PILLARS, seed=1), Setup(other), duration=2e-6).steps > 0
-
-
 @pytest.mark.parametrize("integrator", STABLE)
 def test_a_step_is_stable_up_to_the_limit_of_the_highest_mode(integrator):
     below, above = 0.999 * STABLE[integrator], 1.001 * STABLE[integrator]
@@ -363,15 +331,22 @@ def test_a_run_whose_energy_overflows_is_refused():
 
 @pytest.mark.parametrize("beyond", [-7, 3 * PAUSE + 1])
 def test_a_run_lasts_until_its_last_snapshot_but_does_not_end_before_its_time(run, beyond):
-    """The last snapshot is so many sample intervals beyond the end of the run without any."""
+    """The last snapshot is so many sample intervals beyond the end of the run without any.
+
+    Each snapshot is the end of a shorter run.
+    """
     scene, number = drawn(PILLARS, seed=1), len(run.time) - 1 + beyond
-    watched = simulate(scene, snapshot_times=[1e-4, number * 2e-7])
-    assert watched.snapshot_times == pytest.approx([1e-4, number * 2e-7], rel=1e-14)
+    times = [1e-4, number * 2e-7]
+    watched = simulate(scene, snapshot_times=times)
+    assert watched.snapshot_times == pytest.approx(times, rel=1e-14)
     assert same(watched, run, samples=len(run.time))
     intervals = len(watched.time) - 1
     assert intervals == len(run.time) - 1 if beyond < 0 else number <= intervals <= number + PAUSE
-    shorter = simulate(scene, duration=number * 2e-7)
-    assert watched.snapshots[1].tobytes() == shorter.displacement.tobytes()
+    for time, u, v in zip(times, watched.snapshots, watched.fields.velocity, strict=True):
+        shorter = simulate(scene, duration=time)
+        assert same(watched, shorter, samples=min(len(watched.time), len(shorter.time)))
+        assert shorter.displacement.tobytes() == u.tobytes()
+        assert shorter.velocity.tobytes() == v.tobytes()
 
 
 def test_detachments_in_percent_are_of_the_blocks_that_detach(run):
@@ -387,21 +362,18 @@ def test_a_run_is_summarised_in_one_line(run):
     assert repr(pull()).endswith("t_max 2.0 µs, nothing has detached>")
 
 
-def test_long_runs_show_their_progress_on_a_terminal(capsys, monkeypatch):
+def test_progress_is_shown_on_a_terminal_or_on_request(capsys, monkeypatch):
     pull()
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     pull()
     assert capsys.readouterr().err == ""  # too short a run
     monkeypatch.setattr("springblock.simulation.simulate._SOON", 0.0)
-    pull(progress=False)
+    plain = pull(progress=False)
     assert capsys.readouterr().err == ""
-    pull()
-    assert "10/10" in capsys.readouterr().err
-
-
-def test_progress_is_shown_on_stderr_only_on_request(capsys):
-    plain, counted = pull(), pull(progress=True)
+    assert same(plain, pull())
     said = capsys.readouterr()
     assert "10/10" in said.err
     assert said.out == ""
-    assert same(plain, counted)
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: False)
+    pull(progress=True)
+    assert "10/10" in capsys.readouterr().err

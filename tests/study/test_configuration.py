@@ -21,7 +21,7 @@ from springblock.study.configuration import (
     for_figures,
     refuse_repeated_keys,
 )
-from studies import ROOT, SCHEMA, places
+from studies import ROOT, SCHEMA
 
 SWEEPS = {"angle": {"groups": ["grooves", "angles"], "over": "direction"}}
 FULL = yaml.safe_load((ROOT / "config/full.yaml").read_text())["scenes"]
@@ -41,18 +41,33 @@ def changed(key, to):
     return configuration
 
 
+def expanded(grid, **study):
+    """Ensembles of a group with this grid, alone in a study that passes all checks."""
+    whole = PAPER | {"scenes": {"own": grid}, "figures": {}} | study
+    check(whole, SCHEMA)
+    return ensembles(whole)["own"]
+
+
+def keys(schema):
+    """Names of the keys that a schema knows."""
+    if isinstance(schema, dict):
+        yield from schema.get("properties", {})
+    if isinstance(schema, dict | list):
+        for part in schema.values() if isinstance(schema, dict) else schema:
+            yield from keys(part)
+
+
 def test_every_key_is_documented():
     text = "".join((ROOT / page).read_text() for page in ("config/README.md", "docs/model.md"))
-    keys = {part for path, _ in places(SCHEMA) for part in path} - {"own", 0}
-    assert {key for key in keys if f"`{key}`" not in text} == set()
+    assert {key for key in keys(SCHEMA) if f"`{key}`" not in text} == set()
 
 
 def test_a_constant_may_be_an_axis_of_a_grid():
     """The study's own value makes the scene that other groups have."""
     axes = {"slider_velocity": [5e-4, 1e-3], "gamma": [0, 5000]}
     grid = {"n_blocks": [9], "material": axes, "step": [1e-8, 2e-8], "direction": ["x"], "seeds": 1}
-    scenes = list(ensembles(changed("scenes.fast", to=grid))["fast"])
-    assert len(set(scenes)) == 8
+    scenes = expanded(grid)
+    assert len(scenes) == 8
     assert Scene(9) in scenes
     assert Scene(9, slider_velocity=1e-3, gamma=0, step=1e-8) in scenes
 
@@ -62,13 +77,9 @@ def test_single_values_are_lists_of_one():
     single = {"n_p": 4, "n_s": "n_p", "direction": "x", "step": 1e-8, "material": constants}
     lists = {key: [value] for key, value in single.items()}
     lists["material"] = {key: [value] for key, value in constants.items()}
-    found = []
-    for grid in (single, lists):
-        study = changed("scenes.own", to=grid | {"seeds": 2})
-        check(study, SCHEMA)
-        found.append(ensembles(study)["own"])
-    assert found[0] == found[1]
-    assert len(found[0]) == 1
+    one, other = (expanded(grid | {"seeds": 2}) for grid in (single, lists))
+    assert one == other
+    assert len(one) == 1
 
 
 def test_a_law_ignores_the_constants_of_others(tmp_path):
@@ -77,18 +88,14 @@ def test_a_law_ignores_the_constants_of_others(tmp_path):
     )
     laws = ["coulomb", "slip_weakening", str(tmp_path / "law.py")]
     constants = {"law": laws, "slip_distance": [1e-8, 2e-8], "d_0": [1e-8, 3e-8]}
-    grid = {"n_blocks": 9, "direction": "x", "seeds": 1, "material": constants}
-    study = changed("scenes.own", to=grid)
-    check(study, SCHEMA)
-    scenes = list(ensembles(study)["own"])
+    grid = {"n_blocks": 9, "direction": "x", "seeds": 1}
+    scenes = list(expanded(grid | {"material": constants}))
     assert len(scenes) == 1 + 2 + 2
     assert scenes[0] == Scene(9)
     # A group replaces constants of the study.
     slower = PAPER["material"] | {"law": "slip_weakening", "slip_distance": 1e-8}
-    grid = {"n_blocks": 9, "direction": "x", "seeds": 1, "material": {"law": ["coulomb"]}}
-    study = PAPER | {"material": slower, "scenes": {"own": grid}, "figures": {}}
-    check(study, SCHEMA)
-    assert list(ensembles(study)["own"]) == [Scene(9)]
+    coulomb = grid | {"material": {"law": ["coulomb"]}}
+    assert list(expanded(coulomb, material=slower)) == [Scene(9)]
 
 
 def test_keys_for_anchors_are_no_part_of_the_study():
@@ -106,16 +113,6 @@ def test_a_repeated_key_is_refused_with_its_line(tmp_path, text):
         refuse_repeated_keys(file)
     file.write_text("x: &a {k: 1, all: {<<: &b {k: 2}}}\ny: {<<: *a, k: 3}\nz: [*a, *b]\nw: *a\n")
     refuse_repeated_keys(file)
-
-
-def test_an_advised_sample_interval_is_accepted():
-    study = changed("material.slider_velocity", to=1.234567e-3) | {"sample_interval": 1e-6}
-    study["scenes"] = {"own": {"direction": "x", "seeds": 3}}
-    study["figures"] = {}
-    with pytest.raises(ValueError, match="is too long for slider_velocity") as refusal:
-        check(study, SCHEMA)
-    advised = float(str(refusal.value).rpartition("at most ")[2].removesuffix(" s"))
-    check(study | {"sample_interval": advised}, SCHEMA)
 
 
 def test_a_scene_of_two_groups_is_one_ensemble_with_the_larger_number_of_seeds():
@@ -160,7 +157,6 @@ def surfaces(tmp_path, monkeypatch):
     """The paper's configuration with a group of one's own surfaces, given its grid."""
     monkeypatch.chdir(tmp_path)
     np.save("corner.npy", np.array([[1, 1, 0], [0, 0, 0], [0, 0, 0]], bool))
-    np.save("strip.npy", np.eye(3, 5, dtype=bool))
     Path("again").mkdir()
     shutil.copy("corner.npy", "again")
     shutil.copy("corner.npy", "copy.npy")
@@ -176,9 +172,8 @@ def surfaces(tmp_path, monkeypatch):
 
 def test_a_mask_may_have_several_paths(surfaces):
     """One ensemble for each name."""
-    masks = surfaces(mask=["corner.npy", "again/corner.npy", "copy.npy"])
-    check(masks, SCHEMA)
-    names = [str(scene.mask)[:-9] for scene in ensembles(masks)["own"]]
+    masks = {"mask": ["corner.npy", "again/corner.npy", "copy.npy"], "direction": "x", "seeds": 4}
+    names = [str(scene.mask)[:-9] for scene in expanded(masks)]
     assert names == ["corner", "copy"]
 
 

@@ -1,7 +1,5 @@
 """What figures declare, what follows for a study, and the command that draws by it."""
 
-import subprocess
-import sys
 from dataclasses import replace
 from inspect import signature
 from pathlib import Path
@@ -37,13 +35,6 @@ def planned(*files: str) -> Plan:
 PAPER = planned("config.yaml")
 FULL = planned("config.yaml", "full.yaml")
 QUICK = planned("config.yaml", "quick.yaml")
-
-
-def test_a_dry_run_loads_nothing_that_draws():
-    script = "from springblock.study import results; import sys; print(*sys.modules)"
-    loaded = subprocess.check_output([sys.executable, "-c", script], text=True).split()
-    assert "springblock.study.results" in loaded
-    assert not {"matplotlib", "pandas", "scipy"} & {*loaded}
 
 
 def test_figures_whose_groups_are_left_out_are_no_part_of_a_study():
@@ -144,10 +135,3 @@ def test_a_pattern_is_drawn_from_options(springblock, tmp_path):
     springblock("figure", "figure_4", "--n-blocks", 40, "--n-p", 2, "--n-s", 2, *output)
     said = springblock("figure", "figure_4", "--n-blocks", 8, *output, refused=True)
     assert "a flat surface has no pillar" in said
-
-
-def test_a_drawn_pattern_is_the_study_s_surface_or_one_pillar_and_its_gap():
-    lengths = {"n_p": 58, "n_s": 62, "n_p2": 8, "n_s2": 2}
-    assert FIGURES["figure_8"].options(120, lengths).startswith("--n-blocks 120 --n-p 58")
-    assert FIGURES["figure_8"].options(60, lengths).startswith("--n-blocks 120")
-    assert FIGURES["figure_8"].options(360, lengths).startswith("--n-blocks 360")

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from springblock import compute_prelude
-from springblock.analysis.statistics import Peaks
 from springblock.model.material import Material
 from springblock.model.scene import Scene
+from springblock.simulation.peaks import Peaks
 from springblock.study.claims.flat import (
     ensemble_error,
     single_events,

@@ -6,16 +6,16 @@ import pytest
 from springblock import Material, Pattern
 from springblock.simulation.energy import elastic_energy
 from springblock.study.paper.surfaces import mesh
-from springblock.study.results import FIGURES
+from study.paper.test_results import draw
 
 PILLARS = Pattern.pillars(24, 4, 4)
 GROOVED = Pattern.pillars(48, 10, 14).grooved(4, 2, along="x")
 SPLIT = Pattern.pillars(48, 10, 14).grooved(4, 2, along="y")
 
 DRAWINGS = {
-    "figure_1": lambda: FIGURES["figure_1"].function()(),
-    "figure_4": lambda: FIGURES["figure_4"].function()(PILLARS),
-    "figure_8": lambda: FIGURES["figure_8"].function()(GROOVED),
+    "figure_1": lambda: draw("figure_1"),
+    "figure_4": lambda: draw("figure_4", PILLARS),
+    "figure_8": lambda: draw("figure_8", GROOVED),
 }
 
 
@@ -52,7 +52,7 @@ def test_figure_1_draws_the_springs_of_the_energy():
     ],
 )
 def test_pillars_are_those_of_the_mask(figure, pattern, portion):
-    surface, pillar = FIGURES[figure].function()(pattern).axes
+    surface, pillar = draw(figure, pattern).axes
     np.testing.assert_array_equal(
         surface.images[0].get_array(), pattern.contact[:portion, :portion]
     )

@@ -2,14 +2,10 @@
 
 import numpy as np
 import pandas as pd
-import pyarrow as pa
 import pytest
-from PIL import Image
 from playwright.sync_api import expect
 
 from springblock.__main__ import main
-from springblock.io.parquet import write
-from springblock.study.report.page import report_page as written
 from studies import ROOT
 
 #: Pictures without words for those who do not see them.
@@ -43,37 +39,6 @@ def test_every_part_of_the_report_is_shown(whole, opened, width):
         assert page.locator(MUTE).count() == page.evaluate(BROKEN) == 0, name
 
 
-def test_tables_are_searched_and_sorted(opened, tmp_path):
-    held, report = tmp_path / "held.parquet", tmp_path / "report.html"
-    sizes = [20, 6, 100] * 10
-    made = {"n_p": sizes, "t_max": [1e-6 * n for n in sizes], "N": [120] * 30}
-    write(pa.table(made | {"surface": ["flat", "pillars"] * 15}), held, {})
-    report.write_text(written([held], {}), encoding="utf-8")
-    page = opened(report)
-    page.locator("nav a[href='#tables']").click()
-    table = page.locator("#table-held")
-    table.locator("summary").first.click()
-    rows, searched = table.locator("tbody tr:visible"), table.locator("input[type=search]")
-    for words, number in {"FLAT": 15, "pillars 100": 5, "nothing holds this": 0, "": 30}.items():
-        searched.fill(words)
-        assert rows.count() == number, words
-    for first in "6", "100":  # up, then down
-        table.locator("th button", has_text="t_max").click()
-        assert rows.first.locator("td").first.inner_text() == first
-
-
-def test_a_search_of_the_report_leads_to_what_it_finds(study, opened):
-    page = opened(study / "results/report.html")
-    page.locator("#search").fill("n_p2 pawls")
-    results = page.locator("#results button")
-    assert results.count() > 0
-    results.last.click()
-    expect(page.locator(":focus")).to_be_in_viewport()
-    expect(page.locator(":focus")).to_contain_text("pawls")
-    page.locator("#search").fill("nothing holds this")
-    assert results.count() == 0
-
-
 def test_figures_and_tables_are_saved_whole(study, opened, tmp_path):
     page = opened(study / "results/report.html")
 
@@ -85,9 +50,7 @@ def test_figures_and_tables_are_saved_whole(study, opened, tmp_path):
         return file
 
     page.locator("nav a[href='#figures']").click()
-    with Image.open(saved(page.locator("#figure_4 .save"))) as picture:
-        assert picture.format == "PNG"
-        assert picture.width == page.locator("#figure_4 img").evaluate("i => i.naturalWidth")
+    assert saved(page.locator("#figure_4 .save")).read_bytes().startswith(b"\x89PNG")
     page.locator("nav a[href='#tables']").click()
     table = page.locator("#table-realisations")
     table.locator("summary").first.click()

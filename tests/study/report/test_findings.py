@@ -54,8 +54,8 @@ EDGES = [{"edge": "along", "what": "paper", "quantity": "l_c", "predicted": 2.7,
 
 def rendered_from(claims):
     """The page from these rows of the table of statements."""
-    tables = claims, PAPER, chapter.rows(), production_rows(), EDGES
-    return rendered("findings/page.md", **values(*tables))
+    found = values(claims, PAPER, chapter.rows(), production_rows(), EDGES)
+    return rendered("findings/page.md", **found)
 
 
 def test_the_size_of_lowest_friction_is_that_of_the_papers_pillars():
@@ -84,6 +84,4 @@ def test_findings_are_refused_where_their_statement_turns_out_otherwise(place):
     turned = {"verdict": "not settled", "outcome": "open", "value": 0.5}
     claims = [row | turned if i == place else row for i, row in enumerate(CLAIMS)]
     with pytest.raises(ValueError, match="contradict"):
-        rendered(
-            "findings/page.md", **values(claims, PAPER, chapter.rows(), production_rows(), EDGES)
-        )
+        rendered_from(claims)
