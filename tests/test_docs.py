@@ -1,4 +1,4 @@
-"""What the pages say is what the code writes, knows and has computed; `make site` checks links."""
+"""What the pages say is what the code writes, knows and has computed."""
 
 import csv
 import re
@@ -20,6 +20,9 @@ PAGES = {
     file.stem: file.read_text(encoding="utf-8")
     for file in [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *ROOT.glob("docs/*.md")]
 }
+
+LINKING = ["README.md", "CONTRIBUTING.md", "config/README.md"]
+LINKING += [str(file.relative_to(ROOT)) for file in sorted(ROOT.glob("docs/**/*.md"))]
 
 
 def symbols(heading):
@@ -60,6 +63,24 @@ def test_pages_count_the_verdicts_of_registered_tests():
 def test_the_readme_has_the_findings_that_reports_show():
     (found,) = re.findall(r"<!-- findings.*?-->\n(.*?)<!-- end", PAGES["README"], re.DOTALL)
     assert found == FILE.read_text(encoding="utf-8")
+
+
+def anchors(text):
+    """Places of a page that a link may name: its headings, as GitHub writes them, and its terms."""
+    headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+    words = (re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings)
+    return {*words, *re.findall(r'<a id="([^"]+)">', text)}
+
+
+@pytest.mark.parametrize("page", LINKING, ids=str)
+def test_links_between_pages_lead_to_files_and_headings(page):
+    text = re.sub(r"^```.*?^```", "", (ROOT / page).read_text(encoding="utf-8"), flags=re.S | re.M)
+    for link in re.findall(r'(?:\]\(|href="|src=")([^)"\s]+)', text):
+        if not link.startswith("https://"):
+            name, _, anchor = link.partition("#")
+            target = (ROOT / page).parent / name if name else ROOT / page
+            assert target.exists(), link
+            assert not anchor or anchor in anchors(target.read_text(encoding="utf-8")), link
 
 
 def test_commands_that_pages_show_are_known_with_their_options():
