@@ -160,6 +160,7 @@ def surfaces(tmp_path, monkeypatch):
     Path("again").mkdir()
     shutil.copy("corner.npy", "again")
     shutil.copy("corner.npy", "copy.npy")
+    shutil.copy("corner.npy", "{corner}.npy")
     np.save("mu.npy", np.full((3, 3), 1.5))
     Path("broken.png").write_bytes(b"no image")
 
@@ -193,6 +194,7 @@ def test_topographies_are_cut_at_the_spacing_of_the_lattice(surfaces, monkeypatc
         ({"mask": "corner.npy", "height": 1e-6}, "mask cannot be combined with topography"),
         ({"bearing_area": 0.5}, "bearing_area needs topography"),
         ({"mask": "broken.png"}, "broken.png"),
+        ({"mask": "{corner}.npy"}, r"{corner}.npy: rename it; Snakemake reads braces"),
         ({"mask": "corner.npy", "seeds": None}, "'seeds' is a required property"),
         (
             {"mask": "corner.npy", "mu_static_field": "mu.npy", "mu_dynamic_field": "mu.npy"},

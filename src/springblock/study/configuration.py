@@ -267,6 +267,9 @@ def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[t
     mask_of = cache(lambda cut: BlockMap.of_topography(cut, folder))
     for row in expand(lists):
         scene = scene_of(_with_mask(row, mask_of))
+        for file in scene.files:
+            if "{" in file or "}" in file:
+                raise ValueError(f"{file}: rename it; Snakemake reads braces as wildcards")
         yield scene, counts[sizes.index(scene.n_p)]
 
 
