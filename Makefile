@@ -31,7 +31,8 @@ full: setup
 FINDINGS := src/springblock/study/findings/full_study.md
 docs: full
 	cp results/accuracy.md results/applicability.md results/claims.md results/continuum.md results/mechanism.md results/precursors.md docs
-	cp results/figures/figure_6.png results/figures/continuum_friction.png results/figures/precursors_lengths.png docs
+	cp results/figures/figure_6.png results/figures/continuum_friction.png results/figures/mechanism_friction.png docs
+	cp results/figures/precursors_lengths.png docs
 	cp results/findings.md $(FINDINGS)
 	sed -e '/^<!-- findings/,/^<!-- end/{/^<!--/!d;}' -e '/^<!-- findings/r $(FINDINGS)' README.md > results/README.md
 	mv results/README.md README.md

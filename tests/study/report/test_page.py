@@ -69,6 +69,12 @@ def test_pages_of_the_report_link_to_each_other():
     assert body.count("href") == 2  # pages that the report lacks lead nowhere
 
 
+def test_pictures_of_pages_are_links_to_the_figures_of_the_report():
+    text = "![a < b](figure_6.png) ![c](figure_7.png)\n"
+    body = markup.rendered("a", text, pages={"figure_6"}).body
+    assert body == '<p><a href="#figure_6">a &lt; b</a> c</p>\n'
+
+
 def test_symbols_are_set_and_nothing_but_symbols():
     said = "2<var>μ<sub>d</sub></var>/<var>l<sub>z</sub></var>² &lt; <code>rk4</code>"
     assert typeset("2μ_d/l_z² < `rk4`") == said

@@ -4,10 +4,11 @@ import math
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from springblock.analysis.lowest import Lowest, lowest
-from springblock.analysis.statistics import Interval, mean_interval
+from springblock.analysis.statistics import Interval, mean_interval, number
 from springblock.io.rows import Row
 from springblock.model.material import Material
 from springblock.study.mechanism.sensitivities import SIZE
@@ -32,19 +33,26 @@ def values(
     """Return what the template names, from the rows of the tables."""
     tables = map(pd.DataFrame, (models, strong, springs, settings))
     friction, damped, other, sensitivities = tables
-    sizes = friction.groupby("n_p")
-    plain = sensitivities[sensitivities["edges"] == "free"]
-    damping = sensitivities[sensitivities["varied"].isin(["", "gamma", "edges"])]
+    means = {name: _by_size(friction[name], friction) for name in NAMES}
+    change = {
+        to: _by_size(100.0 * (friction[to] / friction[of] - 1.0), friction)
+        for of, to in pairwise(NAMES)
+    }
+    changes = _by_setting(sensitivities)
     return {
-        "names": NAMES,
+        "header": ["n_p", *NAMES.values()],
         "seeds": friction["seed"].nunique(),
         "blocks": (friction["n_blocks"].min(), friction["n_blocks"].max()),
-        "uneven": sizes["stress_variation"].first().to_dict(),
-        "friction": {name: _by_size(friction[name], friction) for name in NAMES},
-        "change": {
-            to: _by_size(100.0 * (friction[to] / friction[of] - 1.0), friction)
-            for of, to in pairwise(NAMES)
-        },
+        "uneven": friction.groupby("n_p")["stress_variation"].first().to_dict(),
+        "friction": means,
+        "by_size": [
+            [str(n_p), *(number(means[name][n_p]) for name in NAMES)] for n_p in means["simulation"]
+        ],
+        "change": change,
+        "spans": {name: _span(intervals) for name, intervals in change.items()},
+        "level": np.ptp(
+            [means["sticking"][n_p].mean for n_p in means["sticking"] if 3 <= n_p <= 10]
+        ),
         "minimum": {name: _minimum(friction, name) for name in NAMES},
         "springs": {
             f"{(Material.thickness / rows['thickness'].iloc[0]) ** 2:.2g}": {
@@ -61,16 +69,21 @@ def values(
             for row in grooves
         },
         "damped": {gamma: _of_damping(rows) for gamma, rows in damped.groupby("gamma")},
-        "settings": _grouped(plain, "varied", "value")
-        | _grouped(sensitivities[sensitivities["varied"] == "edges"], "varied", "value"),
-        "peaks": _grouped(damping, "edges", "gamma"),
-        "set_seeds": sensitivities["seeds"].min(),
+        "settings": changes,
+        "least": lambda quantity, names: min(changes[name][quantity].low for name in names),
+        "most": lambda quantity, names: max(changes[name][quantity].high for name in names),
     }
 
 
 def _by_size(samples: pd.Series, table: pd.DataFrame) -> dict[int, Interval]:
     """Return the mean over seeds with its interval by n_p."""
     return {n_p: mean_interval(part) for n_p, part in samples.groupby(table["n_p"])}
+
+
+def _span(intervals: dict[int, Interval]) -> tuple[float, float]:
+    """Return the least and the largest mean."""
+    means = [float(each.mean) for each in intervals.values()]
+    return min(means), max(means)
 
 
 def _minimum(table: pd.DataFrame, name: str) -> Lowest:
@@ -87,23 +100,22 @@ def _of_damping(table: pd.DataFrame) -> dict[str, Any]:
     drag = material.gamma * material.mass * material.slider_velocity / material.block_load
     # of a block between neighbours at rest
     critical = 2.0 * math.sqrt((material.k_s + 3.0 * material.k_int) / material.mass)
-    ratio = min(material.gamma / critical, 1.0)
     excess = table["simulation"] - table["quasi_static"]
     return {
         "drag": drag,
         "critical": critical,
-        "overshoot": math.exp(-math.pi * math.tan(math.asin(ratio))),  # over that without damping
         "minimum": _minimum(table, "simulation"),
         "friction": _by_size(table["simulation"], table),
-        "excess": _by_size(excess, table),
-        "percent": _by_size(100.0 * excess / table["quasi_static"], table),
+        "excess": _span(_by_size(excess, table)),
     }
 
 
-def _grouped(rows: pd.DataFrame, *columns: str) -> dict[Any, dict[str, Interval]]:
-    """Return the interval of each quantity, by the values of two columns."""
-    found: dict[Any, dict[str, Interval]] = {}
+def _by_setting(rows: pd.DataFrame) -> dict[str, dict[str, Interval]]:
+    """Return the interval of each quantity by what differs from the paper's surfaces, in words."""
+    found: dict[str, dict[str, Interval]] = {}
     for row in rows.to_dict("records"):
+        edges = "periodic" if row["edges"] == "periodic" and row["varied"] != "edges" else ""
+        name = " ".join(filter(None, (edges, row["varied"], row["value"])))
         interval = Interval(row["mean"], row["mean_low"], row["mean_high"])
-        found.setdefault(tuple(row[name] for name in columns), {})[row["quantity"]] = interval
+        found.setdefault(name, {})[row["quantity"]] = interval
     return found

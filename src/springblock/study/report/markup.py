@@ -47,8 +47,8 @@ def _symbol(letter: str, index: str) -> str:
 def rendered(name: str, markdown: str, pages: Collection[str] = ()) -> Page:
     """Read a page: its title is its first heading, or else its name.
 
-    Headings, and links to them, are marked with its name; links to `pages` lead to these. HTML is
-    shown as text, except the anchors of a glossary.
+    Headings, and links to them, are marked with its name; links to `pages`, and pictures that are
+    among them, lead to these. HTML is shown as text, except the anchors of a glossary.
     """
     parser = MarkdownIt("commonmark", {"html": False}).enable("table")
     parser.add_render_rule("table_open", lambda *_: '<div class="table" tabindex="0"><table>\n')
@@ -78,6 +78,7 @@ def _mark(name: str, tokens: Sequence[Token], pages: Collection[str]) -> None:
             token.tag = tokens[i + 2].tag = "td"  # a column without a name has no heading
         for child in token.children or ():
             _link(name, child, pages)
+            _picture(child, pages)
             if child.type == "text":
                 child.type, child.content = "html_inline", str(symbols(str(escape(child.content))))
 
@@ -96,6 +97,14 @@ def _link(name: str, token: Token, pages: Collection[str]) -> None:
         token.attrSet("href", f"#{name}-{heading}")
     elif page and token.type == "link_open":
         del token.attrs["href"]  # a page of the documentation that the report lacks
+
+
+def _picture(token: Token, pages: Collection[str]) -> None:
+    """Turn a picture beside the page into a link to the report's figure of its name, or words."""
+    if token.type == "image":
+        name, said = str(token.attrGet("src")).partition(".")[0], escape(token.content)
+        token.type = "html_inline"
+        token.content = f'<a href="#{name}">{said}</a>' if name in pages else str(said)
 
 
 def _width(content: str) -> str:

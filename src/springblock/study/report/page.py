@@ -44,7 +44,7 @@ def report_page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = F
         kinds[file.suffix].append(file)
     data = {file.stem: load(file) for file in kinds[".parquet"]}
     figures = {file.stem: media.picture(file) for file in sorted(kinds[".png"])}
-    known = {file.stem for file in kinds[".md"]}
+    known = {file.stem for file in kinds[".md"]} | figures.keys()
     pages = {
         file.stem: markup.rendered(file.stem, file.read_text("utf-8"), known)
         for file in kinds[".md"]
