@@ -43,7 +43,7 @@ def test_the_lesser_peak_is_measured_from_the_valley():
     assert prominence(np.array([0.0, 10.0, 2.0, 5.0, 0.0])) == 0.0  # not under load
     assert prominence(np.array([0.0, 10.0, 9.6, 10.0, 0.0])) == pytest.approx(0.04)
     three = np.array([0.0, 10.0, 9.2, 9.8, 9.5, 9.6, 0.0])
-    assert [prominence(three, rank) for rank in (2, 3, 4)] == pytest.approx([0.06, 0.01, 0.0])
+    assert [prominence(three, rank) for rank in (1, 2, 3)] == pytest.approx([1.0, 0.06, 0.01])
 
 
 def test_of_several_load_peaks_the_two_most_prominent_count():
@@ -55,15 +55,27 @@ def test_of_several_load_peaks_the_two_most_prominent_count():
     assert both_peaks(hills[2]) is None
 
 
-def test_prominences_are_those_of_scipy(rng):
-    """Of rough onsets, which rise from zero and drop below their peaks at the end."""
+@pytest.mark.parametrize("end", [[0.1], [], [1.2, 1.3, 1.3]], ids=["drop", "none", "rise"])
+def test_prominences_are_those_of_scipy(rng, end):
+    """Of rough onsets, which rise from zero; they drop at the end, break off, or rise again."""
     for _ in range(50):
         rough = 1.0 + 0.05 * np.cumsum(rng.standard_normal(100)) / 10.0
-        curve = np.concatenate([np.linspace(0.0, rough[0], 20), rough, [0.1]])
+        curve = np.concatenate([np.linspace(0.0, rough[0], 20), rough, end])
         peaks, _ = find_peaks(curve, height=0.9 * curve.max())
         expected = np.sort(peak_prominences(curve, peaks)[0])[::-1] / curve.max()
-        found = [prominence(curve, rank) for rank in (2, 3, 4)]
-        np.testing.assert_array_equal(found, [*expected, 0.0, 0.0, 0.0][1:4])
+        found = [prominence(curve, rank) for rank in (1, 2, 3, 4)]
+        np.testing.assert_array_equal(found, [*expected, 0.0, 0.0, 0.0, 0.0][:4])
+
+
+def test_a_peak_may_last_and_of_equal_ones_the_first_is_the_highest():
+    """SciPy counts neither as higher, and both as prominent."""
+    flat_topped = np.array([0.0, 10.0, 10.0, 9.5, 9.8, 9.8, 9.8, 9.0, 9.0, 9.7])
+    assert prominence(flat_topped) == pytest.approx(0.03)
+    assert both_peaks(flat_topped) == (1, 3, 4)
+    equal = np.array([0.0, 10.0, 9.0, 10.0, 0.0])
+    assert [prominence(equal, rank) for rank in (1, 2)] == pytest.approx([1.0, 0.1])
+    assert prominence(np.array([0.0, 1.0, 2.0])) == 0.0  # it still rises
+    assert prominence(np.ones(5)) == 0.0
 
 
 def test_the_width_is_of_nine_tenths_of_the_largest_force():

@@ -1,12 +1,13 @@
-"""Load peaks of a force curve: how far apart the two main ones are, and how deep between them.
+"""Load peaks of a force curve: how deep it falls between them, and how far apart the main ones are.
 
-Peaks of at least 0.9 of the largest force count. The prominence of a peak is that of
-`scipy.signal.peak_prominences`, for a curve that starts and ends below its peaks.
+Peaks of at least 0.9 of the largest force count. Their prominences are those of
+`scipy.signal.peak_prominences`; every job would take a second to import it.
 """
 
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from springblock.model.numbers import Array
 
@@ -26,26 +27,20 @@ def prominence(curve: Array, rank: int = 2) -> float:
     """Prominence of the second most prominent load peak of a curve, (n,), over the largest force.
 
     This is the drop of the force between two load peaks, from the lower of them; 0 for a single
-    peak. `rank` selects another peak, in descending order of prominence: those of the third are
-    the peaks on either side of the deepest valley.
+    peak. `rank` selects another peak, in descending order of prominence.
     """
-    highest = float(curve.max())
-    parts, drop = [curve], 0.0
-    for _ in range(rank - 1):
-        drop, valley, part = max((*_deepest(part, highest), i) for i, part in enumerate(parts))
-        here = parts.pop(part)
-        parts += [here[: valley + 1], here[valley:]]
-    return drop / highest
+    found = np.sort(_peaks(curve)[1])
+    return float(found[-rank]) / float(curve.max()) if len(found) >= rank else 0.0
 
 
 def both_peaks(curve: Array) -> Peaks | None:
     """Find the two most prominent load peaks of a force curve, (n,); None with fewer than two."""
-    highest = float(curve.max())
-    drop, valley = _deepest(curve, highest)
-    if drop < PROMINENT * highest:
+    peaks, prominences = _peaks(curve)
+    order = np.argsort(prominences)[-2:]
+    if len(order) < 2 or prominences[order[0]] < PROMINENT * curve.max():
         return None
-    first, second = int(np.argmax(curve[:valley])), valley + int(np.argmax(curve[valley:]))
-    return Peaks(first, valley, second)
+    first, second = sorted(map(int, peaks[order]))
+    return Peaks(first, first + int(np.argmin(curve[first:second])), second)
 
 
 def width(curve: Array) -> int:
@@ -54,10 +49,32 @@ def width(curve: Array) -> int:
     return int(under_load[-1] - under_load[0])
 
 
-def _deepest(curve: Array, highest: float) -> tuple[float, int]:
-    """Return depth and index of the deepest valley between two load peaks; zeros without one."""
-    before, after = np.maximum.accumulate(curve), np.maximum.accumulate(curve[::-1])[::-1]
-    banks = np.minimum(before, after)
-    depths = np.where(banks >= LOAD_PEAK * highest, banks - curve, 0.0)
-    valley = int(np.argmax(depths))
-    return float(depths[valley]), valley
+def _peaks(curve: Array) -> tuple[NDArray[np.intp], Array]:
+    """Return the indices of all load peaks and their prominences.
+
+    A prominence is the height above the lowest force on the way to a higher one, or to an end, on
+    the side where this is less. Of equal forces the first counts as higher.
+    """
+    levels = np.flatnonzero(np.diff(curve, prepend=np.nan))  # the first sample of each
+    turns = np.flatnonzero(np.diff(np.sign(np.diff(curve[levels])), prepend=0.0, append=0.0))
+    corners = levels[turns]  # and both ends
+    heights = curve[corners]
+    is_peak = np.diff(heights, prepend=np.inf) > 0.0
+    is_peak[-1:] = False
+    found = np.flatnonzero(is_peak & (heights >= LOAD_PEAK * curve.max()))
+    ranked = [*zip(heights.tolist(), range(0, -len(heights), -1), strict=True)]
+    before, after = _lowest(ranked), _lowest(ranked[::-1])[::-1]
+    return corners[found], (heights - np.maximum(before, after))[found]
+
+
+def _lowest(ranked: list[tuple[float, int]]) -> list[float]:
+    """Return for each height the lowest one since the last that ranks higher, or the start."""
+    lowest: list[float] = []
+    higher: list[tuple[tuple[float, int], float]] = []
+    for each in ranked:
+        low = each[0]
+        while higher and higher[-1][0] < each:
+            low = min(low, higher.pop()[1])
+        higher.append((each, low))
+        lowest.append(low)
+    return lowest

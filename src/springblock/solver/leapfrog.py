@@ -293,7 +293,7 @@ def _reconstruct_displacements(blocks, law, released, row, x, constants, slider)
 def place_releases(blocks, law, rows, released, count, constants, k):
     """Place the releases of `count` blocks at their times within the step, not at its end.
 
-    The loop moved each by a = (ax, ay) since step k. By (10) to (12) of docs/model.md it slips by s
+    The loop moved each by a = (ax, ay) since step k. By (10) to (12) of docs/speed.md it slips by s
     until step k and then moves at (1/2 + θ_ε) a. Heat grows by Q and the additional friction work.
     """
     springs, slide = constants.springs, (constants.slider_x, constants.slider_y)

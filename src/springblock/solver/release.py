@@ -1,8 +1,8 @@
 """Release times within a step, which make both integrators second order across detachments.
 
 A block at rest detaches at t_det = (k - θ) h, when |F_mot| reaches F_c = max(mu_s, mu_d) F_n
-between steps k - 1 and k. If the net force adds a velocity a per step, then at step k, by (9) to
-(12) of docs/model.md (docs/speed.md gives the reason for Q),
+between steps k - 1 and k. If the net force adds a velocity a per step, then at step k, by (9) of
+docs/model.md and (10) to (12) of docs/speed.md, which has the reason for Q,
 
     θ = (|F_k| - F_c)/(|F_k| - |F_k-1|),    θ_ε = θ + ε (1/2 - θ),
     slip s = (θ_ε²/2 - ε/8) a,    velocity θ_ε a,    heat Q = (1 - ε) a²/8 - (K_s + 3 K_int) s²/2.

@@ -92,7 +92,7 @@ def _begin_step(blocks, law, stage, released, count, band, s, damping, now):
     """Set the direction of friction in a band and release blocks; return the releases so far.
 
     On entry, stage velocities are those at the start of the step, and sums over stages are zero.
-    Released blocks start with (10) of docs/model.md for θ = 1/2, which `_place_releases` corrects.
+    Released blocks start with (10) of docs/speed.md for θ = 1/2, which `_place_releases` corrects.
     """
     vx, vy, static, dynamic = blocks.vx, blocks.vy, blocks.static, blocks.dynamic
     ex, ey, t_det = stage.ex, stage.ey, blocks.t_det
@@ -149,7 +149,7 @@ def _reconstruct_displacements(blocks, stage, released, row, x, constants):
 def _place_releases(blocks, law, stage, released, count, constants, k):
     """Place the releases of `count` blocks at their times before step k, not half a step before.
 
-    The stages have started from (10) of docs/model.md with θ = 1/2. To second order, θ_ε changes
+    The stages have started from (10) of docs/speed.md with θ = 1/2. To second order, θ_ε changes
     the displacement at the end of the step by the changes of slip and velocity at its start,
 
         Δu = [(θ_ε²/2 - 1/8) + (θ_ε - 1/2)] a.                                  (13)
