@@ -51,7 +51,7 @@ SHORTER = {
         "blocks = 200": "blocks = 120",
         "[(8, 48), (6, 16)]": "[(20, 28), (8, 9)]",
         "popsize=4, maxiter=4": "popsize=1, maxiter=0",
-        "seeds=4, levels=2": "seeds=2, levels=2",
+        "seeds=4": "seeds=2",
     },
     "measured.md": {"measured.yaml\n": "measured.yaml -n\n"},
 }
