@@ -21,7 +21,7 @@ class Made(list):
 def refined(*means, scatter=1e-3):
     offsets = scatter * np.array([-1.0, 0.0, 1.0])
     runs = [Made(SimpleNamespace(static_friction=m + d) for d in offsets) for m in means]
-    return Refined([1e-5 / 2**i for i in range(len(means))], runs)
+    return Refined([1e-5 / 2**i for i in range(len(means))], runs, [0.5] * len(means))
 
 
 @pytest.mark.parametrize(

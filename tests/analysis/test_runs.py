@@ -27,6 +27,12 @@ def test_runs_of_an_ensemble_are_single_runs_in_the_order_of_their_seeds(runs):
     assert runs.means()["t_avg"] == mean_interval([run.t_avg for run in runs])
 
 
+def test_a_table_without_pandas_says_what_to_install(runs, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ModuleNotFoundError, match="pip install pandas"):
+        runs.table()
+
+
 def test_everything_public_that_has_a_picture_shows_it_in_a_notebook(runs):
     for shown in (PATTERN, Surface.draw(PATTERN, seed=0), runs, runs[0], runs[0].fields):
         assert shown._repr_png_().startswith(b"\x89PNG")

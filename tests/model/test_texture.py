@@ -59,8 +59,12 @@ def test_a_scene_has_the_blocks_of_its_texture_and_can_be_made_from_its_row():
 @pytest.mark.parametrize(
     ("changed", "sentence"),
     [
-        ({"spacing": 4e-5}, "the feature = 8e-05 m has fewer than 4 blocks of 4e-05 m; choose sp"),
-        ({"pitch": 8.5e-5}, "the gap, pitch - feature = 5e-06 m has fewer than 4 blocks"),
+        (
+            {"spacing": 4e-5},
+            "gaps between them, 7e-05 m, have fewer than 4 blocks of 4e-05 m; choose",
+        ),
+        ({"pitch": 8.5e-5}, "gaps between them, 5e-06 m, have fewer than 4 blocks"),
+        ({"pitch": 8e-5}, "features of 8e-05 m at a pitch of 8e-05 m overlap"),
         ({"width": 0.0}, "a texture needs width, a length in m, not 0"),
         ({"width": 0.5}, "the surface has 99990 blocks a side; choose at most 4096"),
         ({"n_p": 4, "n_s": 4}, "texture cannot be combined with n_p, n_s"),

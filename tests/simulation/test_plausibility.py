@@ -42,7 +42,14 @@ def said(pattern=FLAT, runs=1, duration=4e-6, step=STEP, **constants):
         ),
         ({"pattern": PILLARS}, "depends on the spacing .* slip_weakening .* 1.4e-06 m .* refine"),
         ({"pattern": PILLARS, "law": "velocity_weakening", "speed_scale": 1e-2}, "law velocity_we"),
-        ({"pattern": PILLARS, **FINE, "spacing": 1e-5}, "does not resolve slip_distance"),
+        (
+            {**FINE, "slip_distance": 0.1, "step": 5e-9},
+            "slip_distance = 0.1 m exceeds thickness = 1e-05 m",
+        ),
+        (
+            {"pattern": PILLARS, **FINE, "spacing": 1e-5},
+            "does not resolve fronts with slip_distance",
+        ),
     ],
 )
 def test_one_sentence_says_what_is_hardly_meant(constants, sentence):

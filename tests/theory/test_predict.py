@@ -39,7 +39,8 @@ def test_lengths_scale_with_the_layer():
         (replace(SLIP, law="coulomb", slip_distance=0.0, healing="instant"), (), "needs the law"),
         (replace(SLIP, mu_dynamic=1.0), (), "mu_static above mu_dynamic"),
         (SLIP, ("disc", 1e-5, 1e-5), "shape must be one of across, along, square, not 'disc'"),
-        (SLIP, ("square", 1e-5, 0.0), "width and gap must be positive, not 1e-05 and 0.0 m"),
+        (SLIP, ("square", 1e-5, 0.0), "gap = 0 m must be 0.1 to 50 times thickness"),
+        (SLIP, ("square", 80.0, 80.0), "width = 80 m must be .* lengths are in m"),
     ],
 )
 def test_what_the_theory_is_not_for_is_refused(material, given, sentence):

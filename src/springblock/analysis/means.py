@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 from springblock.analysis.ensembles import Change, Ensemble, from_first, mean
 from springblock.analysis.statistics import Interval, number
 from springblock.io.rows import Row
@@ -22,11 +24,14 @@ _NONE_AT_ZERO = {*LENGTHS, "duration", "snapshot_times"}
 def means(members: Sequence[Ensemble], of: Sequence[str], by: Sequence[str] = ()) -> list[Row]:
     """Return a row for each ensemble: what tells it apart, its number of runs and its means."""
     names = by or differing(each.names for each in members)
+    shares = [np.mean([row["contact_fraction"] for row in each.rows]) for each in members]
+    shown = len(set(shares)) > 1
     return [
         {name: each.names.get(name) for name in names}
+        | ({"contact_fraction": float(f"{share:.4g}")} if shown else {})
         | {"runs": len(each.rows)}
         | {name: mean(each, name) for name in of}
-        for each in members
+        for each, share in zip(members, shares, strict=True)
     ]
 
 
@@ -75,7 +80,7 @@ def _heading(name: str, value: Any) -> str:
 def _cell(name: str, value: Any) -> str:
     if isinstance(value, Interval):
         return number(value, factor=1e6 if _is_time(name, value) else 1.0)
-    if name == "direction" and value not in ("x", "y"):
+    if name == "direction" and value not in ("x", "y", None):
         return f"{value}°"
     none = value is None or (name in _NONE_AT_ZERO and not value)
     return "" if none else str(value)

@@ -24,6 +24,7 @@ class Refined:
 
     spacings: list[float]  #: m
     runs: list[Runs]
+    fractions: list[float]  #: share of the blocks in contact on each lattice
 
     @property
     def friction(self) -> list[Interval]:
@@ -55,12 +56,14 @@ class Refined:
         return "not settled: give more seeds, or a finer lattice"
 
     def __repr__(self) -> str:
+        each = zip(self.spacings, self.fractions, self.friction, strict=True)
         told = [
-            f"l = {spacing:g} m: static friction {number(friction)}"
-            for spacing, friction in zip(self.spacings, self.friction, strict=True)
+            f"l = {spacing:g} m, {share:.1%} in contact: static friction {number(friction)}"
+            for spacing, share, friction in each
         ]
-        order = f"observed order {self.order:.1f}; " if math.isfinite(self.order) else ""
-        return "\n".join([*told, order + self.verdict])
+        order = f", observed order {self.order:.1f}" if math.isfinite(self.order) else ""
+        told.append(f"last change {number(self.changes[-1])}{order}; {self.verdict}")
+        return "\n".join(told)
 
 
 def refine(
@@ -91,7 +94,7 @@ def refine(
         raise ValueError(f"levels must be at least 2, not {levels}")
     usual = setup.material
     disorder = usual.correlation_length or usual.spacing
-    spacings, every = [], []
+    spacings, every, fractions = [], [], []
     for parts in 2 ** np.arange(levels):
         spacing = usual.spacing / int(parts)
         material = replace(usual, spacing=spacing, correlation_length=disorder)
@@ -102,4 +105,5 @@ def refine(
             mask = as_mask(contact).repeat(parts, axis=0).repeat(parts, axis=1)
         spacings.append(spacing)
         every.append(ensemble(mask, finer, direction, seeds, **options))
-    return Refined(spacings, every)
+        fractions.append(float(mask.mean()))
+    return Refined(spacings, every, fractions)

@@ -28,9 +28,11 @@ class Runs(Shown, list[Realisation]):
     """Realisations of one surface with the seeds 0, 1, ..., in this order."""
 
     def table(self) -> "pd.DataFrame":
-        """Return static friction, dynamic friction and times (s) of each run, by its seed."""
-        import pandas as pd
-
+        """Return the observables of each run, times in s, by its seed."""
+        try:
+            import pandas as pd
+        except ModuleNotFoundError:
+            raise ModuleNotFoundError("a table of runs needs pandas: pip install pandas") from None
         return pd.DataFrame(self._rows()).set_index("seed")
 
     def means(self) -> dict[str, Interval]:

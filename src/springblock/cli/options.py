@@ -146,12 +146,14 @@ scene_options = partial(_fields_as_options, "scene", _type_of, scene_of)
 scenes_options = partial(_fields_as_options, "scenes", _types_of, _combined)
 
 
+#: Law of the theory, unless another is given.
+_WEAKENING = {"law": "slip_weakening", "healing": "none"}
 #: Add the options of a material, which the command receives as `material`.
 material_options = partial(
     _fields_as_options,
     "material",
     _type_of,
-    lambda given: Material(**({"law": "slip_weakening", "healing": "none"} | given)),
+    lambda given: Material(**(given if "law" in given else _WEAKENING | given)),
     among={each.name: each for each in fields(Material)},
 )
 

@@ -54,16 +54,22 @@ class Texture(Shown):
         for name in ("feature", "pitch", "width", "spacing"):
             if not 0.0 < (value := getattr(self, name)) < math.inf:
                 raise ValueError(f"a texture needs {name}, a length in m, not {value}")
-        gap = self.pitch - self.feature
-        for name, length in (("feature", self.feature), ("gap, pitch - feature", gap)):
-            if length < (LEAST - 0.5) * self.spacing:
-                raise ValueError(
-                    f"the {name} = {length:g} m has fewer than {LEAST} blocks of "
-                    f"{self.spacing:g} m; choose spacing = {max(length, 0.0) / LEAST:g} or less"
-                )
+        narrowest = min(self.feature, self.pitch - self.feature)
+        if narrowest <= 0.0:
+            raise ValueError(
+                f"features of {self.feature:g} m at a pitch of {self.pitch:g} m overlap; choose a "
+                "larger pitch"
+            )
+        if narrowest < (LEAST - 0.5) * self.spacing:
+            raise ValueError(
+                f"features or the gaps between them, {narrowest:g} m, have fewer than {LEAST} "
+                f"blocks of {self.spacing:g} m; choose spacing = {narrowest / LEAST:g} or less"
+            )
         if max(self.shape) > MAX_BLOCKS:
-            blocks = max(self.shape)
-            raise ValueError(f"the surface has {blocks} blocks a side; choose at most {MAX_BLOCKS}")
+            raise ValueError(
+                f"the surface has {max(self.shape)} blocks a side; choose at most {MAX_BLOCKS}; "
+                "lengths are in m"
+            )
 
     @property
     def period(self) -> Period:

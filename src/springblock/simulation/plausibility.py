@@ -45,6 +45,11 @@ def of_input(surface: Surface, setup: Setup) -> Iterator[str]:
             f"thickness = {material.thickness:g} m exceeds the side of the surface, {side:g} m; "
             "lengths are in m"
         )
+    if material.slip_distance > material.thickness:
+        yield (
+            f"slip_distance = {material.slip_distance:g} m exceeds thickness = "
+            f"{material.thickness:g} m, so that friction hardly falls; lengths are in m"
+        )
     if not contact.all():
         yield from filter(None, [resolution.lattice(material)])
 

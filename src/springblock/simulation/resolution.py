@@ -63,8 +63,9 @@ def lattice(material: Material) -> str:
     finest = math.sqrt(STIFFNESS["y"]) * material.thickness / DECAY
     return (
         f"under the law {material.law} static friction of patterned surfaces depends on the "
-        "spacing of the lattice; under slip_weakening a lattice is fine enough from spacing = "
-        f"{finest:.2g} m down; compare spacings with `springblock refine` (docs/continuum.md)"
+        "spacing of the lattice; under slip_weakening it converges, from spacing = "
+        f"{finest:.2g} m down with thickness = {material.thickness:g} m, or finer where "
+        "slip_distance is short; compare spacings with `springblock refine` (docs/continuum.md)"
     )
 
 
@@ -76,8 +77,9 @@ def doubts(surface: Surface, material: Material, direction: str | float, run: Ru
     finest = coarsest(material, decay, surface.contact.mean())
     if material.spacing > finest * (1.0 + 1e-9):
         yield (
-            f"spacing = {material.spacing:g} m does not resolve slip_distance = "
-            f"{material.slip_distance:g} m; choose at most {finest:.2g} m (docs/continuum.md)"
+            f"spacing = {material.spacing:g} m does not resolve fronts with slip_distance = "
+            f"{material.slip_distance:g} m and thickness = {material.thickness:g} m; choose at "
+            f"most {finest:.2g} m (docs/continuum.md)"
         )
     last = int(np.argmax(run.force[run.onset])) + 1
     again = run.switches[:last].sum() > _SWITCHES * run.detachments[:last].sum()

@@ -18,6 +18,7 @@ from springblock.theory.layer import Cell, Groups, stripe
 SHAPES = ("across", "along", "square")  #: stripes across and along the sliding direction; pillars
 _PER_LAYER, _LEAST = 4, 6  #: points per l_z, and least number in half of a pillar or gap
 _RANGE = 2.0, 30.0  #: widths over l_z among which the best is looked for
+_LEAST_OF_LAYER, _MOST_OF_LAYER = 0.1, 50.0  #: thicknesses, of a pillar or gap
 _CLOSE = 0.03  #: of the best width, relative
 
 
@@ -44,8 +45,12 @@ def predict(material: Material, shape: str, width: float, gap: float) -> Predict
         raise ValueError(f"shape must be one of {', '.join(SHAPES)}, not {shape!r}")
     if material.law != "slip_weakening" or not material.mu_static > material.mu_dynamic:
         raise ValueError("the theory needs the law slip_weakening, and mu_static above mu_dynamic")
-    if not (width > 0.0 and gap > 0.0):
-        raise ValueError(f"width and gap must be positive, not {width} and {gap} m")
+    for name, length in (("width", width), ("gap", gap)):
+        if not _LEAST_OF_LAYER <= length / material.thickness <= _MOST_OF_LAYER:
+            raise ValueError(
+                f"{name} = {length:g} m must be {_LEAST_OF_LAYER} to {_MOST_OF_LAYER:g} times "
+                f"thickness = {material.thickness:g} m; lengths are in m"
+            )
     share = width / (width + gap)
     fraction = share**2 if shape == "square" else share
     groups = Groups.of(material, "x" if shape == "across" else "y", fraction)
