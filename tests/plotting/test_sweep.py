@@ -95,7 +95,7 @@ def test_a_panel_for_each_observable(two_lines):
 def test_directions_are_lines_and_over_the_direction_itself_angles():
     made = [r for s in SPEEDS for way in ("x", "y", "30") for r in rows(at(s, direction=way), 0.8)]
     found = lines(made, "slider_velocity")
-    assert names(found) == ["direction = 30", "direction = x", "direction = y"]
+    assert names(found) == ["direction = x", "direction = 30°", "direction = y"]
     assert sorted(lines(made, "direction")["place"].unique()) == [0.0, 30.0, 90.0]
 
 
@@ -119,7 +119,7 @@ def test_laws_and_masks_stand_on_an_axis_by_name_and_no_two_in_one_place():
     found = lines([row for law in laws for row in rows(law, 0.7)], "law")
     named = dict(zip(found["place"], found["tick"], strict=True))
     assert named == dict(
-        enumerate(["coulomb", "slip weakening, 5e-08, none", "slip weakening, 1e-07, none"])
+        enumerate(["coulomb", "slip weakening, 5e-08 m, none", "slip weakening, 1e-07 m, none"])
     )
     assert names(found) == ["as the study"]
     islands = {name: BlockMap(f"{name}-0123abcd", np.eye(n)) for name, n in (("b", 4), ("a", 6))}

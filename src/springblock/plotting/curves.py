@@ -182,22 +182,23 @@ def name_places(ax: Axes, places: ArrayLike, scale: str = "log") -> None:
     at = along * span(ax)
     named, end = [], -np.inf
     for place, tick in zip(at, ticks, strict=True):
-        half = 0.32 * style.SMALL * len(f"{tick:g}")
+        half = 0.32 * style.SMALL * len(f"{tick:.4g}")
         if place - half > end:
             named.append(tick)
             end = place + half + 1.0
-    ax.set_xticks(named, [f"{tick:g}" for tick in named])
+    ax.set_xticks(named, [f"{tick:.4g}" for tick in named])
     ax.xaxis.minorticks_off()
     ax.margins(x=0.1, y=0.1)
 
 
 def name_categories(ax: Axes, names: Sequence[str]) -> None:
     """Name the places 0, 1, ... of an axis, at an angle where names would overlap."""
-    room = span(ax) / max(1, len(names) - 1)
+    room = span(ax) / len(names)
     long = style.SMALL * 0.6 * max(map(len, names)) > room
     turned: Look = {"rotation": 25.0, "ha": "right", "rotation_mode": "anchor"} if long else {}
     ax.set_xticks(range(len(names)), names, **turned)
-    ax.margins(x=0.1, y=0.1)
+    ax.set_xlim(-0.5, len(names) - 0.5)
+    ax.margins(y=0.1)
 
 
 def span(ax: Axes) -> float:

@@ -81,14 +81,15 @@ def lines(rows: Iterable[Row], over: str) -> "DataFrame":
         raise ValueError(f"{over} has the same value in all realisations; choose another axis")
     several = every.groupby("line")["place"].transform("nunique") > 1
     found = every[several] if several.any() else every
-    ordered = sorted({*found["line"]}, key=lambda names: [_by_size(value) for _, value in names])
+    ordered = sorted({*found["line"]}, key=lambda names: [_by_size(*each) for each in names])
     titles = dict(zip(ordered, _named(ordered, units_of(every["law"])), strict=True))
     return found.assign(line=pd.Categorical(found["line"].map(titles), [*titles.values()]))
 
 
 def units_of(laws: Iterable[str]) -> dict[str, str]:
     """Return the units of constants, also of these laws, by name; "" without one."""
-    units = {name: FIELDS[name].metadata["unit"] for name in (*CONSTANTS, "sample_interval")}
+    own = (*CONSTANTS, "sample_interval", "feature", "pitch", "width")
+    units = {name: FIELDS[name].metadata["unit"] for name in own}
     for law in map(as_law, {*laws}):
         units |= law.units if isinstance(law, LawFile) else {}
     return {name: "" if unit == "1" else unit for name, unit in units.items()}
@@ -110,6 +111,7 @@ def _named(every: list[Names], units: Mapping[str, str]) -> list[str]:
         own = dict(names.items() - common)
         shown = [name for name in names if name in own.keys() - hidden]
         told = [f"{in_math(name)} = {own[name]} {units.get(name, '')}".rstrip() for name in shown]
+        told = [re.sub(r"^(direction = [^xy]+)$", r"\1°", each) for each in told]
         found.append(", ".join(filter(None, [surface, *told])) or "as the study")
     return found
 
@@ -119,7 +121,8 @@ def _value(scene: Scene, row: Row, over: str) -> str | float | None:
     if over == SHARE:
         return float(row[SHARE])
     if over == "law":  # with its constants, so that no two laws share a place
-        own = [f"{scene.values[name]:g}" for name in _constants(scene)]
+        units = units_of([str(row["law"])])
+        own = [f"{scene.values[name]:g} {units[name]}".strip() for name in _constants(scene)]
         return ", ".join([str(scene.law), *own, *([scene.healing] * (scene.healing != "instant"))])
     value = scene.values.get(over) if _is_axis(over) else None
     return None if value == "" else value
@@ -134,9 +137,10 @@ def _constants(scene: Scene) -> list[str]:
 
 def _ticks(values: set[str | float]) -> dict[str | float, str]:
     """Return a name for each value of an axis of names, in their order: Coulomb's law first."""
-    words = {value: str(value).split(", ") for value in map(str, values)}
+    words = {value: re.split("[, ]+", value) for value in map(str, values)}
     every = sorted(
-        words, key=lambda value: (value[:7] != "coulomb", [*map(_by_size, words[value])])
+        words,
+        key=lambda value: (value[:7] != "coulomb", [_by_size("", word) for word in words[value]]),
     )
     stems = Counter(_DIGEST.sub("", value) for value in every)
     short = {value: _DIGEST.sub("", value) for value in every}
@@ -147,9 +151,11 @@ def _place(value: str | float) -> float:
     return degrees(value) if isinstance(value, str) else float(value)
 
 
-def _by_size(value: str) -> tuple[float, str]:
-    """Return a key that sorts numbers by size and other texts after them."""
+def _by_size(name: str, value: str) -> tuple[float, str]:
+    """Return a key that sorts numbers and directions by size and other texts after them."""
     try:
+        if name == "direction":
+            return degrees(value), ""
         return float(value), ""
     except ValueError:
         return math.inf, value

@@ -14,7 +14,7 @@ from springblock.analysis.statistics import mean_interval
 from springblock.model.numbers import Array
 from springblock.model.scene import FIELDS
 from springblock.plotting import curves, style
-from springblock.plotting.lines import NAMED, in_math, units_of
+from springblock.plotting.lines import NAMED, SHARE, in_math, units_of
 from springblock.plotting.style import MICRO, Look, span
 
 if TYPE_CHECKING:
@@ -105,8 +105,8 @@ def _aside(found: "DataFrame", places: Array, scale: str) -> Array:
 
 def _axis(over: str, found: "DataFrame") -> str:
     """Return the name and unit of an axis, as in the tables."""
-    shown = in_math(over.replace("n_blocks", "N")) if over in FIELDS else over
-    own = {"direction": "degrees", "contact_fraction": ""}
-    own |= dict.fromkeys(("feature", "pitch", "width"), "m") | dict.fromkeys(NAMED, "")
+    is_named = over in FIELDS or over == SHARE  # others are constants of laws from files
+    shown = in_math(over.replace("n_blocks", "N")) if is_named else over
+    own = {"direction": "degrees"} | dict.fromkeys((SHARE, *NAMED), "")
     unit = (units_of(found["law"]) | own).get(over, "blocks")
     return shown + (f" ({unit})" if unit else "")
