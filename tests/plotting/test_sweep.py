@@ -11,7 +11,7 @@ from springblock.io.identity import identity
 from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
 from springblock.plotting import sweep
-from springblock.plotting.lines import axes, lines
+from springblock.plotting.lines import SHARE, axes, lines
 
 SPEEDS = (2.5e-4, 5e-4, 1e-3, 4e-3)
 
@@ -128,6 +128,29 @@ def test_laws_and_masks_stand_on_an_axis_by_name_and_no_two_in_one_place():
     ticks = sweep.draw(found, "mask", ["static_friction"]).axes[0].get_xticklabels()
     assert [tick.get_text() for tick in ticks] == ["a", "b"]
     assert "Lines join" not in sweep.caption(found)
+
+
+def test_names_keep_their_places_where_others_are_left_out():
+    """A law whose line has no second law leaves no gap; textures of other sizes are other lines."""
+    slow = {"law": "velocity_weakening", "speed_scale": 1e-2}
+    laws = [Scene(24), Scene(24, gamma=1e4, law="slip_weakening", slip_distance=1e-7)]
+    found = lines([row for law in (*laws, Scene(24, **slow)) for row in rows(law, 0.7)], "law")
+    ticks = sweep.draw(found, "law", ["static_friction"]).axes[0].get_xticklabels()
+    assert [tick.get_text() for tick in ticks] == ["coulomb", "velocity weakening, 0.01 m/s"]
+    assert {*found["place"]} == {0, 1}
+    textures = [
+        Scene(texture=kind, feature=size, pitch=1e-4, width=1e-4)
+        for kind in ("discs", "squares")
+        for size in (4e-5, 6e-5)
+    ]
+    found = lines([row for each in textures for row in rows(each, 0.7)], "texture")
+    assert names(found) == ["feature = 4e-05 m", "feature = 6e-05 m"]
+
+
+def test_surfaces_of_one_contact_fraction_are_not_averaged():
+    textures = [Scene(texture="squares", feature=a, pitch=2 * a, width=4 * a) for a in (4e-5, 8e-5)]
+    with pytest.raises(ValueError, match=r"contact_fraction = 0\.25 in different surfaces"):
+        lines([r | {"contact_fraction": 0.25} for s in textures for r in rows(s, 0.7)], SHARE)
 
 
 def test_axes_are_numbers_in_which_two_scenes_differ_that_are_otherwise_alike():

@@ -19,7 +19,9 @@ from springblock.model.material import Material
 @defaulted("--spacing", type=float, default=Material().spacing, help="Lattice spacing, m.")
 @click.option("--channel", help="Channel of heights.  [default: the reader's]")
 @click.option("--detrend", type=click.Choice(list(TRENDS)), help="Trend to subtract first.")
-@click.option("--size", type=float, help="Side of the map along x, if the file has none.")
+@click.option(
+    "--size", type=float, help="Side of the map along x, in the unit of the file, if it has none."
+)
 @click.option("--unit", help="Unit of the lengths in the file, if it has none: um, nm, ...")
 @click.option("--output", type=Output(".npy"), required=True, help="NumPy array (.npy).")
 def mask(topography: Path, output: Path, **cut: Any) -> None:

@@ -32,7 +32,8 @@ _DIGEST = re.compile(r"-[0-9a-f]{8}$")  #: at the end of the name of a mask
 SHARE = "contact_fraction"  #: axis that is no field of a scene
 NAMED = ("law", "mask", "texture")  #: axes with a name at each place
 #: Of surfaces, which differ with the mask, the texture or the share of blocks in contact.
-_SIZES = ("mask", "n_blocks", "n_rows", "feature", "pitch", "width", *LENGTHS)
+_BLOCKS = ("mask", "n_blocks", "n_rows", *LENGTHS)
+_SIZES = (*_BLOCKS, "feature", "pitch", "width")
 Names = tuple[tuple[str, str], ...]
 
 
@@ -77,13 +78,25 @@ def lines(rows: Iterable[Row], over: str) -> "DataFrame":
         for s, _, value in scenes
     ]
     every = pd.DataFrame([row | more for (_, row, _), more in zip(scenes, placed, strict=True)])
+    if over == SHARE:
+        _refuse_equal(zip([s for s, *_ in scenes], every["line"], every["place"], strict=True))
     if every["place"].nunique() < 2:
         raise ValueError(f"{over} has the same value in all realisations; choose another axis")
     several = every.groupby("line")["place"].transform("nunique") > 1
     found = every[several] if several.any() else every
+    if over in NAMED:  # without places of which no line is left
+        found = found.assign(place=found["place"].rank(method="dense").astype(int) - 1)
     ordered = sorted({*found["line"]}, key=lambda names: [_by_size(*each) for each in names])
     titles = dict(zip(ordered, _named(ordered, units_of(every["law"])), strict=True))
     return found.assign(line=pd.Categorical(found["line"].map(titles), [*titles.values()]))
+
+
+def _refuse_equal(placed: Iterable[tuple[Scene, Names, float]]) -> None:
+    """Refuse different surfaces with the same share of blocks in contact on one line."""
+    first: dict[tuple[Names, float], Names] = {}
+    for scene, line, place in placed:
+        if first.setdefault((line, place), own := _others(scene, "")) != own:
+            raise ValueError(f"{SHARE} = {place:.4g} in different surfaces; choose another axis")
 
 
 def units_of(laws: Iterable[str]) -> dict[str, str]:
@@ -176,7 +189,7 @@ def _others(scene: Scene, over: str) -> Names:
     follows = {
         SHARE: _SIZES,
         "mask": _SIZES,
-        "texture": _SIZES,
+        "texture": _BLOCKS,
         "law": (*OF_LAWS, *_constants(scene)),
     }
     for name in follows.get(over, ()):  # from what is on the axis

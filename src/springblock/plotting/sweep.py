@@ -68,7 +68,7 @@ def draw(found: "DataFrame", over: str, observables: Sequence[str]) -> Figure:
     size = style.COLUMN, 15.0 + legend + 43.0 * len(observables)
     letters = ";".join(ascii_lowercase[: len(observables)])
     picture, panels = style.panels(*size, letters, sharex=True)
-    scale = "log" if 0.0 < _DECADE * places[0] <= places[-1] else "linear"
+    scale = "log" if over not in NAMED and 0.0 < _DECADE * places[0] <= places[-1] else "linear"
     axis, ticks = _axis(over, found), found.groupby("place")["tick"].first().tolist()
     ticks = ticks if any(ticks) else []
     found = found.assign(**{axis: _aside(found, places, scale)})

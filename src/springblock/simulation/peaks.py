@@ -34,7 +34,10 @@ def prominence(curve: Array, rank: int = 2) -> float:
 
 
 def both_peaks(curve: Array) -> Peaks | None:
-    """Find the two most prominent load peaks of a force curve, (n,); None with fewer than two."""
+    """Find the two most prominent load peaks of a force curve, (n,).
+
+    None unless the prominence of the second is `PROMINENT` or more.
+    """
     peaks, prominences = _peaks(curve)
     order = np.argsort(prominences)[-2:]
     if len(order) < 2 or prominences[order[0]] < PROMINENT * curve.max():
@@ -44,7 +47,7 @@ def both_peaks(curve: Array) -> Peaks | None:
 
 
 def width(curve: Array) -> int:
-    """Return the samples from the first to the last force of a load peak, of a curve (n,)."""
+    """Return the intervals between the first and last force of `LOAD_PEAK` of the largest, (n,)."""
     under_load = np.flatnonzero(curve >= LOAD_PEAK * curve.max())
     return int(under_load[-1] - under_load[0])
 
