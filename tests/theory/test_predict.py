@@ -26,6 +26,13 @@ def test_the_best_stripes_are_those_of_the_map_of_widths(shape):
     assert found.width / found.decay == pytest.approx(expected, rel=0.05)
 
 
+def test_the_best_width_is_sought_as_far_as_gaps_may_be_wide():
+    """With gaps of up to 50 l_z, ten times as wide as the stripes."""
+    found = best(SLIP, "across", 10.0)
+    assert 2.0 < found.width / SLIP.thickness < 5.0 + 1e-6
+    assert found.static_friction < predict(SLIP, "across", 2e-5, 2e-4).static_friction
+
+
 def test_lengths_scale_with_the_layer():
     """Of a layer twice as thick, with twice the slip distance at half the spring constant."""
     thick = replace(SLIP, thickness=2.0 * SLIP.thickness, slip_distance=2.0 * SLIP.slip_distance)

@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from springblock.analysis.ensembles import Change, Ensemble, from_first, mean
 from springblock.analysis.statistics import Interval, number
 from springblock.io.rows import Row
@@ -24,7 +22,7 @@ _NONE_AT_ZERO = {*LENGTHS, "duration", "snapshot_times"}
 def means(members: Sequence[Ensemble], of: Sequence[str], by: Sequence[str] = ()) -> list[Row]:
     """Return a row for each ensemble: what tells it apart, its number of runs and its means."""
     names = by or differing(each.names for each in members)
-    shares = [np.mean([row["contact_fraction"] for row in each.rows]) for each in members]
+    shares = [float(each.values("contact_fraction").mean().round(9)) for each in members]
     shown = len(set(shares)) > 1
     return [
         {name: each.names.get(name) for name in names}

@@ -1,7 +1,8 @@
 """Load peaks of a force curve: how deep it falls between them, and how far apart the main ones are.
 
 Peaks of at least 0.9 of the largest force count. Their prominences are those of
-`scipy.signal.peak_prominences`; every job would take a second to import it.
+`scipy.signal.peak_prominences`, but for the highest one, which is the most prominent wherever the
+curve ends; every job would take a second to import it.
 """
 
 from typing import NamedTuple
@@ -67,7 +68,9 @@ def _peaks(curve: Array) -> tuple[NDArray[np.intp], Array]:
     found = np.flatnonzero(is_peak & (heights >= LOAD_PEAK * curve.max()))
     ranked = [*zip(heights.tolist(), range(0, -len(heights), -1), strict=True)]
     before, after = _lowest(ranked), _lowest(ranked[::-1])[::-1]
-    return corners[found], (heights - np.maximum(before, after))[found]
+    prominences = (heights - np.maximum(before, after))[found]
+    prominences[np.flatnonzero(heights[found] == curve.max())[:1]] = curve.max()
+    return corners[found], prominences
 
 
 def _lowest(ranked: list[tuple[float, int]]) -> list[float]:

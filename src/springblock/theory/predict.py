@@ -39,7 +39,8 @@ def predict(material: Material, shape: str, width: float, gap: float) -> Predict
     Raises
     ------
     ValueError
-        If the law is not slip weakening, friction does not fall, or the shape is unknown.
+        If the law is not slip weakening, friction does not fall, the shape is unknown, or a length
+        is not 0.1 to 50 thicknesses of the layer.
     """
     if shape not in SHAPES:
         raise ValueError(f"shape must be one of {', '.join(SHAPES)}, not {shape!r}")
@@ -83,9 +84,11 @@ def predictions(
 def best(material: Material, shape: str, ratio: float = 1.0) -> Prediction:
     """Return the width of lowest static friction, with gaps `ratio` times as wide.
 
-    Between 2 and 30 l_z; at an end of these, friction has no minimum between them.
+    Between 2 and 30 l_z, or as far as the gaps may be wide; at an end of these, friction has no
+    minimum between them.
     """
-    low, high = np.log(np.array(_RANGE) * material.thickness)
+    least, most = _LEAST_OF_LAYER / min(1.0, ratio), _MOST_OF_LAYER / max(1.0, ratio)
+    low, high = np.log(np.clip(_RANGE, least, most) * material.thickness)
 
     def friction(log: float) -> float:
         width = float(np.exp(log))
