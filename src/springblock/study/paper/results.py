@@ -228,10 +228,11 @@ def _draw_chain(ax: Axes, edges: "pd.DataFrame") -> None:
 
 
 def _equal_gaps(table: "pd.DataFrame") -> "pd.DataFrame":
-    """Return the rows of pillars with n_s = n_p, with surface and constants of the first."""
+    """Return the rows of pillars with n_s = n_p, with surface and constants of most sizes."""
     found = table[(table["level"] == 1) & (table["n_s"] == table["n_p"])]
     same = ["n_blocks", "n_rows", "edges", "direction", *CONSTANTS]
-    return found[(found[same] == found[same].iloc[0]).all(axis=1)]
+    sizes = found.groupby(same, sort=False)["n_p"].transform("nunique")
+    return found[(found[same] == found[same].iloc[sizes.to_numpy().argmax()]).all(axis=1)]
 
 
 def _draw_fits(ax: Axes, side: str, curve: "pd.DataFrame", length: "pd.Series") -> None:
