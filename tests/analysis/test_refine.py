@@ -20,8 +20,12 @@ class Made(list):
 
 def refined(*means, scatter=1e-3):
     offsets = scatter * np.array([-1.0, 0.0, 1.0])
-    runs = [Made(SimpleNamespace(static_friction=m + d) for d in offsets) for m in means]
-    return Refined([1e-5 / 2**i for i in range(len(means))], runs, [0.5] * len(means))
+    contact = np.eye(2, dtype=bool)
+    runs = [
+        Made(SimpleNamespace(static_friction=m + d, contact=contact) for d in offsets)
+        for m in means
+    ]
+    return Refined([1e-5 / 2**i for i in range(len(means))], runs)
 
 
 @pytest.mark.parametrize(

@@ -22,11 +22,11 @@ _NONE_AT_ZERO = {*LENGTHS, "duration", "snapshot_times"}
 def means(members: Sequence[Ensemble], of: Sequence[str], by: Sequence[str] = ()) -> list[Row]:
     """Return a row for each ensemble: what tells it apart, its number of runs and its means."""
     names = by or differing(each.names for each in members)
-    shares = [float(each.values("contact_fraction").mean().round(9)) for each in members]
+    shares = [float(f"{each.values('contact_fraction').mean():.4g}") for each in members]
     shown = len(set(shares)) > 1
     return [
         {name: each.names.get(name) for name in names}
-        | ({"contact_fraction": float(f"{share:.4g}")} if shown else {})
+        | ({"contact_fraction": share} if shown else {})
         | {"runs": len(each.rows)}
         | {name: mean(each, name) for name in of}
         for each, share in zip(members, shares, strict=True)

@@ -24,7 +24,6 @@ class Refined:
 
     spacings: list[float]  #: m
     runs: list[Runs]
-    fractions: list[float]  #: share of the blocks in contact on each lattice
 
     @property
     def friction(self) -> list[Interval]:
@@ -56,10 +55,11 @@ class Refined:
         return "not settled: give more seeds, or a finer lattice"
 
     def __repr__(self) -> str:
-        each = zip(self.spacings, self.fractions, self.friction, strict=True)
+        each = zip(self.spacings, self.runs, self.friction, strict=True)
         told = [
-            f"l = {spacing:g} m, {share:.1%} in contact: static friction {number(friction)}"
-            for spacing, share, friction in each
+            f"l = {spacing:g} m, {runs[0].contact.mean():.1%} in contact: "
+            f"static friction {number(friction)}"
+            for spacing, runs, friction in each
         ]
         order = f", observed order {self.order:.1f}" if math.isfinite(self.order) else ""
         told.append(f"last change {number(self.changes[-1])}{order}; {self.verdict}")
@@ -94,7 +94,7 @@ def refine(
         raise ValueError(f"levels must be at least 2, not {levels}")
     usual = setup.material
     disorder = usual.correlation_length or usual.spacing
-    spacings, every, fractions = [], [], []
+    spacings, every = [], []
     for parts in 2 ** np.arange(levels):
         spacing = usual.spacing / int(parts)
         material = replace(usual, spacing=spacing, correlation_length=disorder)
@@ -105,5 +105,4 @@ def refine(
             mask = as_mask(contact).repeat(parts, axis=0).repeat(parts, axis=1)
         spacings.append(spacing)
         every.append(ensemble(mask, finer, direction, seeds, **options))
-        fractions.append(float(mask.mean()))
-    return Refined(spacings, every, fractions)
+    return Refined(spacings, every)

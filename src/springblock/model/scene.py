@@ -361,10 +361,10 @@ def expand(lists: Mapping[str, Any]) -> Iterator[Row]:
     names = sorted(lists, key=lambda name: [*FIELDS, name].index(name))
     known = {name: [_read(name, value) for value in listed(lists[name])] for name in names}
     laws = known.get("law", [])
-    of_laws = set(OF_LAWS).union(*map(_constants_of, laws)) if len(laws) > 1 else set()
+    of_laws = set(OF_LAWS).union(*map(constants_of, laws)) if len(laws) > 1 else set()
     for values in product(*known.values()):
         row = dict(zip(names, values, strict=True))
-        others = of_laws - _constants_of(row["law"]) if of_laws else set()
+        others = of_laws.difference(constants_of(row["law"])) if of_laws else set()
         row = {name: value for name, value in row.items() if name not in others}
         if "n_s" in row:
             row["n_s"] = gap_of(row["n_s"], row.get("n_p", 0))
@@ -377,11 +377,11 @@ def _read(name: str, value: Any) -> Any:
     return value if read is None or isinstance(value, BlockMap) else read(value)
 
 
-def _constants_of(law: str | LawFile) -> set[str]:
-    """Return the names of the constants that only this law has."""
+def constants_of(law: str | LawFile) -> list[str]:
+    """Return the names of the constants that only this law has, in their order."""
     if isinstance(law, LawFile):
-        return set(law.constants)
-    return {LAWS[law], "healing"} if law == "slip_weakening" else {LAWS[law]}
+        return [*law.constants]
+    return [*filter(None, [LAWS[law]]), *["healing"] * (law == "slip_weakening")]
 
 
 def gap_of(given: int | str, n_p: int) -> int:

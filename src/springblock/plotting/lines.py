@@ -21,6 +21,7 @@ from springblock.model.scene import (
     LENGTHS,
     OF_LAWS,
     Scene,
+    constants_of,
     differing,
 )
 
@@ -135,17 +136,11 @@ def _value(scene: Scene, row: Row, over: str) -> str | float | None:
         return float(row[SHARE])
     if over == "law":  # with its constants, so that no two laws share a place
         units = units_of([str(row["law"])])
-        own = [f"{scene.values[name]:g} {units[name]}".strip() for name in _constants(scene)]
+        numbers = [name for name in constants_of(scene.law) if name != "healing"]
+        own = [f"{scene.values[name]:g} {units[name]}".strip() for name in numbers]
         return ", ".join([str(scene.law), *own, *([scene.healing] * (scene.healing != "instant"))])
     value = scene.values.get(over) if _is_axis(over) else None
     return None if value == "" else value
-
-
-def _constants(scene: Scene) -> list[str]:
-    """Return the names of the constants of the law of a scene."""
-    if isinstance(scene.law, LawFile):
-        return [*scene.law.constants]
-    return [name for name in (LAWS[scene.law],) if name]
 
 
 def _ticks(values: set[str | float]) -> dict[str | float, str]:
@@ -190,7 +185,7 @@ def _others(scene: Scene, over: str) -> Names:
         SHARE: _SIZES,
         "mask": _SIZES,
         "texture": _BLOCKS,
-        "law": (*OF_LAWS, *_constants(scene)),
+        "law": (*OF_LAWS, *constants_of(scene.law)),
     }
     for name in follows.get(over, ()):  # from what is on the axis
         values.pop(name, None)

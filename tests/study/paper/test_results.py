@@ -253,9 +253,13 @@ def test_the_last_panel_shows_the_lengths_along_x_with_their_intervals():
 
 
 def test_figure_7_shows_pillars_with_equal_gaps_and_the_study_s_constants():
-    """Neither other gaps, nor another material; without the size asked for it is refused."""
+    """Neither other gaps, nor another material, nor a first surface with fewer sizes.
+
+    Without the size asked for it is refused.
+    """
+    first = lengths()[:4].assign(n_blocks=24, n_rows=24)
     others = [lengths().assign(n_s=5), lengths().assign(gamma=1.0)]
-    picture = draw("figure_7", 60, correlation(), pd.concat([lengths(), *others]))
+    picture = draw("figure_7", 60, correlation(), pd.concat([first, lengths(), *others]))
     shown, usual = (each.axes[2].lines[0].get_xydata() for each in (picture, drawn("figure_7")))
     np.testing.assert_array_equal(shown, usual)
     with pytest.raises(ValueError, match="no correlation length for n_p = 60"):

@@ -60,6 +60,7 @@ def work_precision(table: DataFrame, production: DataFrame) -> Figure:
         _draw_costs(ax, runs)
         ax.set_title(f"{scene}, {runs.n_blocks.iloc[0]} × {runs.n_blocks.iloc[0]} blocks")
         ax.set(xscale="log", yscale="log", xlabel="CPU seconds per realisation")
+        ax.xaxis.set_minor_formatter("")  # names of less than a decade, which overlap
     for ax in panels[1:]:
         ax.sharey(panels[0])
         ax.tick_params(labelleft=False)

@@ -38,8 +38,9 @@ def continuum_friction(table: pd.DataFrame) -> Figure:
     squares.set(xlabel="width of squares $a/l_z$", ylabel=FRICTION)
     for shape, words in (("across", "across"), ("along", "along sliding")):
         stripes.plot([], [], _MARKERS[shape], color=BLACK, label=words)
+    by_mu_d = style.shades(MU_D)
     for mu_d, widths in zip(MU_D, best_widths(), strict=True):
-        best.plot(KAPPA, widths, label=rf"$\mu_d$ = {mu_d:g}")
+        best.plot(KAPPA, widths, color=by_mu_d[mu_d], label=rf"$\mu_d$ = {mu_d:g}")
     best.set(xlabel=r"$\kappa$", ylabel=r"best width of stripes $a^*/\lambda$", xscale="log")
     for ax in (stripes, squares):
         ax.set_ylim(None, 1.05)

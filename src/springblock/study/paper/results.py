@@ -183,8 +183,7 @@ def figure_7(
     """Draw a) c_x(r) and c_y(r) for one n_p, b) with their fits, and c) their lengths over n_p.
 
     `correlation`, `lengths` and `edges` are the tables correlation, correlation_length and
-    precursors. Drawn are square pillars with equal gaps on the surface that comes first, with the
-    study's constants.
+    precursors. Drawn are square pillars with equal gaps on the surface of most sizes.
     """
     correlation, lengths = _equal_gaps(correlation), _equal_gaps(lengths)
     correlation = correlation[correlation["n_p"] == n_p]
