@@ -39,6 +39,13 @@ def test_every_part_of_the_report_is_shown(whole, opened, width):
         assert page.locator(MUTE).count() == page.evaluate(BROKEN) == 0, name
 
 
+def test_friction_stands_beside_its_surface_on_a_narrow_page(whole, opened):
+    page = opened(whole, 390)
+    page.locator("nav a[href='#means']").click()
+    expect(page.locator("#means th").nth(1)).to_have_text("static friction")
+    expect(page.locator("#means td").nth(1)).to_be_in_viewport(ratio=1)
+
+
 def test_figures_and_tables_are_saved_whole(study, opened, tmp_path):
     page = opened(study / "results/report.html")
 

@@ -12,11 +12,12 @@ import pyarrow as pa
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from springblock.analysis.ensembles import Ensemble, constants, doubts, ensembles
+from springblock.analysis.ensembles import Ensemble, constants, doubts, ensembles, mean
 from springblock.analysis.means import UNITS, changes_from_first, in_words, means
 from springblock.io.parquet import load, origin_of
-from springblock.io.rows import Row, alike
+from springblock.io.rows import Row, alike, scene_of
 from springblock.model.material import Material
+from springblock.model.scene import differing
 from springblock.study.claims.page import judged
 from springblock.study.findings.page import FILE
 from springblock.study.report import markup, media
@@ -54,11 +55,12 @@ def report_page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = F
         raise ValueError("a report on own scenes needs the table realisations.parquet")
     runs = rows.get("realisations", [])
     members = ensembles(runs if own else alike(runs))
+    shown = means(members, OBSERVED) if own else _on_surfaces(members)
     content = _of_own(members) if own else _of_study(figures, pages, rows.get("claims", []))
     return rendered(
         "own.html" if own else "page.html",
         **content,
-        means=_spaced(means(members, OBSERVED)) if members else (),
+        means=_spaced(shown) if shown else (),
         n_runs=len(runs),
         figures=figures,
         pages=pages,
@@ -85,6 +87,19 @@ def _of_own(members: Sequence[Ensemble]) -> dict[str, Any]:
             if value and value != paper.get(name)
         ],
     }
+
+
+def _on_surfaces(members: Sequence[Ensemble]) -> list[Row]:
+    """Return a row of means for each surface, named by what tells it apart, the shortest first."""
+    apart = differing(each.names for each in members)
+    rows: list[Row] = []
+    for each in members:
+        scene = scene_of(each.rows[0])
+        told = [f"{name} = {value}" for name, value in scene.given.items() if name in apart]
+        surface = ["flat"] * (scene.level == 0)
+        observed = {name: mean(each, name) for name in OBSERVED}
+        rows.append({"surface": ", ".join([*surface, *told])} | observed | {"runs": len(each.rows)})
+    return sorted(rows, key=lambda row: row["surface"].count(","))
 
 
 def _spaced(rows: Sequence[Row]) -> tuple[list[str], list[list[str]]]:
