@@ -28,7 +28,7 @@ def _lengths(text: str) -> list[float]:
 def predict(shape: str, widths: list[float] | None, ratio: float, material: Material) -> None:
     """Predict static friction of stripes or square pillars, and the width where it is lowest.
 
-    Under slip weakening without healing, which is the default law here: give --slip-distance.
+    Under slip weakening without healing, whatever --law says: give --slip-distance.
     Disorder and inertia are left out; docs/continuum.md compares the theory with simulations.
     """
     best = theory.best(material, shape, ratio)

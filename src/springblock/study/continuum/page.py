@@ -46,7 +46,7 @@ def values(cells: Sequence[Row]) -> dict[str, Any]:
         "softer": {
             name: soft["simulation"][0] / row["simulation"][0] for name, row in ratios.items()
         },
-        "span": sorted(row["place"] for what, row in squares.items() if what.startswith(_EVEN)),
+        "even": [row for what, row in squares.items() if what.startswith(_EVEN)],
         "larger": squares["mu_d = 0.3"]["place"],
         "shown": [_compared(row) for what, row in squares.items() if what.startswith(_SHOWN)],
         "squares": converged,
