@@ -1,15 +1,9 @@
-"""Files that are written whole or not at all, and arrays read from them."""
+"""Files that are written whole or not at all."""
 
 import contextlib
-import zlib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 from uuid import uuid4
-from zipfile import BadZipFile
-
-import numpy as np
-from numpy.typing import NDArray
 
 #: Advice for a file of a study that cannot be used.
 MENDING = "delete it, and `snakemake` makes it again"
@@ -47,19 +41,3 @@ def write_text(path: Path, text: str) -> None:
     """Write a text whole or not at all."""
     with whole_file(path) as partial:
         partial.write_text(text, encoding="utf-8")
-
-
-#: Errors, besides ValueError, of reading a file that is damaged or of another type.
-_TORN = BadZipFile, EOFError, OSError, TypeError, zlib.error
-
-
-def read_arrays(path: Path) -> dict[str, NDArray[Any]]:
-    """Read the arrays of an .npz file by name; pickled objects are never loaded.
-
-    A file that is damaged or of another type is a ValueError.
-    """
-    try:
-        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
-            return dict(arrays)
-    except _TORN as error:
-        raise ValueError(str(error)) from error

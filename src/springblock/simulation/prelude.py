@@ -10,14 +10,15 @@ file, the force before that state is summed in another order and may differ by r
 
 import json
 import math
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from springblock.files import MENDING, read_arrays, whole_file
+from springblock.files import MENDING, whole_file
 from springblock.model.asperities import log_share_above
 from springblock.model.direction import heading
 from springblock.model.numbers import Array
@@ -37,6 +38,8 @@ _BETWEEN = 10
 HOLDING = (0.998, 0.96, 0.85, 0.65, 0.4, 0.2)
 #: Relative margin by which a threshold must exceed the running maximum, against rounding.
 _SLACK = 1e-12
+#: Errors of reading a file that is damaged or of another type.
+_TORN = BadZipFile, EOFError, KeyError, OSError, TypeError, ValueError, zlib.error
 #: A threshold that is never reached, and whose square is finite.
 _NEVER = 1e150
 
@@ -58,16 +61,17 @@ class Prelude:
 
     def save(self, path: Path) -> None:
         """Write an .npz file, whole or not at all."""
-        parts: dict[str, Any] = {name: _apart(part) for name, part in vars(self).items()}
         with whole_file(path) as partial, partial.open("wb") as file:
-            np.savez_compressed(file, **parts)
+            np.savez_compressed(file, **vars(self))
 
     @classmethod
     def read(cls, path: Path) -> "Prelude":
         """Read a file that `save` has written; refuse any other with a ValueError."""
         try:
-            return cls(**{name: _together(part) for name, part in read_arrays(path).items()})
-        except (TypeError, ValueError):
+            with path.open("rb") as file, np.load(file, allow_pickle=False) as parts:
+                texts = {name: str(parts[name]) for name in ("conditions", "code_version")}
+                return cls(**dict(parts) | texts)
+        except _TORN:
             raise ValueError(f"{path} is not a prelude, or damaged; {MENDING}") from None
 
     def start(self, motion: Motion, latest: float) -> None:
@@ -97,26 +101,6 @@ class Prelude:
         skipped = int(self.samples[last])
         force_x, force_y = self.force[:, :skipped].copy()
         motion.append(Samples(force_x, force_y, np.zeros(skipped, np.int64)))
-
-
-def _apart(part: Any) -> NDArray[Any]:
-    """Return floating-point numbers as planes of bytes, (8, ...), which halves compressed files.
-
-    Leading bytes of neighbouring numbers repeat; the others do not.
-    """
-    whole = np.asarray(part)
-    if whole.dtype != np.float64:
-        return whole
-    return np.moveaxis(np.ascontiguousarray(whole)[..., None].view(np.uint8), -1, 0)
-
-
-def _together(stored: NDArray[Any]) -> Any:
-    """Undo `_apart`, to the bit."""
-    if stored.dtype.kind == "U":
-        return str(stored)
-    if stored.dtype != np.uint8:
-        return stored
-    return np.ascontiguousarray(np.moveaxis(stored, 0, -1)).view(np.float64)[..., 0]
 
 
 def conditions(
