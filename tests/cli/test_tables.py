@@ -9,6 +9,7 @@ from scipy.stats import ttest_1samp, ttest_ind
 
 from springblock import read
 from springblock.analysis.statistics import mean_interval, number
+from springblock.io.parquet import load
 
 
 def written(file):
@@ -111,6 +112,10 @@ def test_directions_are_compared_with_the_smallest_angle(springblock, batch, tmp
     springblock("table", *files, "--changes", "--of", "t_max", "--output", output)
     ends = [(row["from"], row["to"]) for row in written(output)]
     assert ends == [("direction = -20", angle) for angle in ("x", "30", "45", "y")]
+    output = tmp_path / "a.parquet"  # whose columns have one type
+    files.append(batch(0, 1, "--gamma", "6e3"))
+    springblock("table", *files, "--changes", "--of", "t_max", "--output", output)
+    assert load(output, ["to"])["to"].to_pylist() == ["x", "30", "45", "y", "6000.0"]
     said = springblock("table", *files)
     assert "45°" in said
     assert "warning" not in said

@@ -52,7 +52,7 @@ def changes_from_first(members: Sequence[Ensemble], of: Sequence[str]) -> list[R
     found = list(from_first(members))
     rows = differences([change for *_, change in found], of)
     return [
-        {"from": f"{name} = {first} {UNITS.get(name, '')}".rstrip(), "to": other} | row
+        {"from": f"{name} = {first} {UNITS.get(name, '')}".rstrip(), "to": str(other)} | row
         for (name, first, other, _), row in zip(found, rows, strict=True)
     ]
 

@@ -1,12 +1,12 @@
 """springblock table, compare and info: what tables hold, and how two differ."""
 
-import csv
 from collections.abc import Sequence
 from pathlib import Path
 
 import click
 import pyarrow as pa
 import pyarrow.parquet as pq
+from pyarrow.csv import write_csv
 
 from springblock.analysis.comparison import differences as row_differences
 from springblock.analysis.ensembles import OBSERVABLES, changes, doubts, ensembles
@@ -148,7 +148,9 @@ def _report(rows: Sequence[Row], output: Path | None) -> None:
     head, cells = in_words(rows)
     print_columns([head, *cells])
     if output:
-        _write([_numbers(row) for row in rows], output)
+        write = pq.write_table if output.suffix == ".parquet" else write_csv
+        with whole_file(output) as partial:
+            write(pa.Table.from_pylist(list(map(_numbers, rows))), partial)
 
 
 def _numbers(row: Row) -> Row:
@@ -157,18 +159,6 @@ def _numbers(row: Row) -> Row:
     for name, value in row.items():
         numbers |= limits(name, value) if isinstance(value, Interval) else {name: value}
     return numbers
-
-
-def _write(rows: list[Row], output: Path) -> None:
-    """Write a table as CSV or Parquet."""
-    with whole_file(output) as partial:
-        if output.suffix == ".parquet":
-            pq.write_table(pa.Table.from_pylist(rows), partial)
-        else:
-            with partial.open("w", newline="", encoding="utf-8") as file:
-                writer = csv.DictWriter(file, rows[0])
-                writer.writeheader()
-                writer.writerows(rows)
 
 
 @click.command("info")
