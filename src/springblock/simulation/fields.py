@@ -14,23 +14,6 @@ from springblock.model.numbers import Array
 if TYPE_CHECKING:
     import xarray
 
-DIMENSIONS = ("time", "y", "x")  #: of a field
-
-#: Units and meaning of each variable. Coordinates have no attribute `axis`: ParaView would take X
-#: and Y for longitude and latitude.
-VARIABLES = {
-    "time": ("s", "time since the slider began to move"),
-    "y": ("m", "position of the block centre along y, free of strain"),
-    "x": ("m", "position of the block centre along x, free of strain"),
-    "displacement_x": ("m", "displacement along x"),
-    "displacement_y": ("m", "displacement along y"),
-    "velocity_x": ("m s-1", "velocity along x"),
-    "velocity_y": ("m s-1", "velocity along y"),
-    "slip": ("m", "distance from the initial position on the substrate"),
-    "stress_x": ("Pa", "shear stress on the substrate along x"),
-    "stress_y": ("Pa", "shear stress on the substrate along y"),
-    "state": ("1", "state of the block"),
-}
 _ABOUT = {
     "Conventions": "CF-1.11",
     "title": "Fields of a spring-block model of the onset of frictional sliding",
@@ -84,34 +67,42 @@ class Fields(Shown):
         in_contact = np.where(moving, BlockState.SLIDING, BlockState.STUCK)
         return np.where(self.contact, in_contact, BlockState.FREE).astype(np.int8)
 
-    def variables(self) -> dict[str, NDArray[Any]]:
-        """Return the values of each of `VARIABLES`."""
-        rows, columns = self.contact.shape
-        in_contact = np.where(self.contact, 0.0, np.nan)
-        vectors = {
-            "displacement": self.displacement,
-            "velocity": self.velocity,
-            "stress": self.stress + in_contact,
-        }
-        return {
-            "time": self.time,
-            "y": self.spacing * (np.arange(rows) + 0.5),
-            "x": self.spacing * (np.arange(columns) + 0.5),
-            **{f"{name}_x": values[:, 0] for name, values in vectors.items()},
-            **{f"{name}_y": values[:, 1] for name, values in vectors.items()},
-            "slip": self.slip,
-            "state": self.state,
-        }
-
     def to_xarray(self) -> "xarray.Dataset":
         """Return all fields with coordinates, units and the attributes of the CF conventions.
 
         Its `to_netcdf(file, engine="scipy")` writes a file that ncdump and ParaView open, too.
         """
+        y, x = (self.spacing * (np.arange(n) + 0.5) for n in self.contact.shape)
+        vectors = (
+            ("displacement", self.displacement, "m", "displacement"),
+            ("velocity", self.velocity, "m s-1", "velocity"),
+            (
+                "stress",
+                np.where(self.contact, self.stress, np.nan),
+                "Pa",
+                "shear stress on the substrate",
+            ),
+        )
+        # without the attribute `axis`: ParaView would take X and Y for longitude and latitude
+        every = ("time", "y", "x")
         data = dataset(
             [
-                ((name,) if name in DIMENSIONS else DIMENSIONS, name, values, *VARIABLES[name])
-                for name, values in self.variables().items()
+                (["time"], "time", self.time, "s", "time since the slider began to move"),
+                (["y"], "y", y, "m", "position of the block centre along y, free of strain"),
+                (["x"], "x", x, "m", "position of the block centre along x, free of strain"),
+                *(
+                    (every, f"{name}_{axis}", values[:, i], unit, f"{meaning} along {axis}")
+                    for i, axis in enumerate("xy")
+                    for name, values, unit, meaning in vectors
+                ),
+                (
+                    every,
+                    "slip",
+                    self.slip,
+                    "m",
+                    "distance from the initial position on the substrate",
+                ),
+                (every, "state", self.state, "1", "state of the block"),
             ]
         ).assign_attrs(_ABOUT)
         for name in data.data_vars:

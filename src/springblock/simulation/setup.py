@@ -17,8 +17,6 @@ from springblock.solver.integrators import INTEGRATORS, is_stable, limit
 PAPER = Material()
 #: Largest number of steps times blocks, and the number that takes one core a year (leapfrog).
 _MOST_STEPS, _STEPS_PER_YEAR = 1e16, 7e15
-#: Largest number of samples, the limit of a cell of a table.
-_MOST_SAMPLES = 2**31 - 1
 #: Largest number of blocks times snapshots in a run: 6 GB of fields.
 _MOST_IN_SNAPSHOTS = 2**27
 
@@ -138,8 +136,8 @@ class Setup:
         Raises
         ------
         TypeError, ValueError
-            If a time is not valid, or the run would take 1.4 years or more on one core, have more
-            samples than a table can hold, or more snapshots than fit in memory.
+            If a time is not valid, or the run would take 1.4 years or more on one core, or has
+            more snapshots than fit in memory.
         """
         interval, intervals = self.interval, math.inf
         if duration is not None:
@@ -172,18 +170,13 @@ class Setup:
         return int(intervals), at_samples
 
     def _check_cost(self, blocks: int, reason: str, time: float) -> None:
-        """Refuse a run over this time, s, that takes too many steps or samples."""
-        steps, samples = time / self.step, time / self.interval
+        """Refuse a run over this time, s, that takes too many steps."""
+        steps = time / self.step
         if not steps * blocks < _MOST_STEPS:
             raise ValueError(
                 f"step = {self.step!r} s is too short for a {reason} of {time:.4g} s: "
                 f"{steps:.2g} steps of {blocks} blocks would take "
                 f"{steps * blocks / _STEPS_PER_YEAR:.2g} years or more"
-            )
-        if samples > _MOST_SAMPLES:
-            raise ValueError(
-                f"sample_interval = {self.interval!r} s is too short for a {reason} of "
-                f"{time:.4g} s: it gives {samples:.2g} samples, and a table holds {_MOST_SAMPLES}"
             )
 
 
