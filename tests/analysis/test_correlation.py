@@ -135,20 +135,18 @@ def test_distances_count_by_their_inverse_variance():
     """No exponential passes through these three points; another weighting gives another length."""
     r, curve, error = np.arange(1, 4), np.array([0.8, 0.3, 0.3]), np.array([0.02, 0.1, 0.3])
 
-    def misfit(length):
-        return np.sum(((curve - np.exp(-r / length)) / error) ** 2)
-
-    def left(length):
+    def least_squares(length):
         decay, weight = np.exp(-r / length), error**-2
-        scale = (weight * curve) @ decay / (weight @ decay**2)
-        return np.sum(((curve - scale * decay) / error) ** 2)
+        return (weight * curve) @ decay / (weight @ decay**2)
 
-    for fit, function in ((fit_length, misfit), (fit_tail, left)):
-        best = minimize_scalar(function, bounds=(0.5, 20.0)).x
+    for fit, scale in ((fit_length, lambda length: 1.0), (fit_tail, least_squares)):
+
+        def misfit(length, scale=scale):
+            return np.sum(((curve - scale(length) * np.exp(-r / length)) / error) ** 2)
+
+        best = minimize_scalar(misfit, bounds=(0.5, 20.0)).x
         assert fit(curve[None], error)[0] == pytest.approx(best, rel=1e-3)
-    decay, weight = np.exp(-r / 2.0), error**-2
-    least_squares = (weight * curve) @ decay / (weight @ decay**2)
-    assert amplitude(curve[None], error, np.array([2.0])) == pytest.approx(least_squares)
+    assert amplitude(curve[None], error, np.array([2.0])) == pytest.approx(least_squares(2.0))
 
 
 def test_sides_are_the_outer_rows_and_columns_of_the_pillars():

@@ -48,10 +48,12 @@ def test_a_magnitude_may_be_as_large_as_the_further_end_of_its_interval():
 
 
 def test_errors_of_the_same_runs_add_and_those_of_others_add_in_quadrature():
+    """Each on its side: the difference is smallest for a small first and a large second value."""
     first, second = Estimate(5.0, 2.0, 6.0, 20), Estimate(1.0, 0.0, 5.0, 10)
     assert first.minus_paired(second) == Estimate(4.0, -3.0, 6.0, 10)
     apart = first - second
-    assert (apart.value, apart.ci_low, apart.n) == pytest.approx((4.0, 4.0 - 5.0, 10))
+    limits = apart.ci_low, apart.ci_high
+    assert (apart.value, *limits, apart.n) == pytest.approx((4.0, 4.0 - 5.0, 4.0 + 2.0**0.5, 10))
 
 
 def test_an_estimate_divided_by_a_number_keeps_its_sample():

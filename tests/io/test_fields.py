@@ -38,8 +38,11 @@ def test_coordinates_units_and_missing_values_are_in_the_file(fields, file):
         assert dict(data.sizes) == {"time": 2, "y": 4, "x": 8}
         assert set(data.coords) == {"time", "x", "y"}
         assert {name: data[name].attrs["units"] for name in data.variables} == UNITS
-        there = data.velocity_x.sel(x=2.6e-5, y=1.4e-5, time=2e-6, method="nearest")
-        assert float(there) == fields.velocity[1, 0, 1, 2]
+        assert data.stress_x.dims == ("time", "y", "x")
+        there = data.sel(x=2.6e-5, y=1.4e-5, time=2e-6, method="nearest")
+        for name in VECTORS:
+            found = [float(there[f"{name}_{axis}"]) for axis in "xy"]
+            assert found == getattr(fields, name)[1, :, 1, 2].tolist()
         assert int(data.slip.count()) == 2 * np.count_nonzero(SURFACE.contact)
 
 

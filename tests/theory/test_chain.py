@@ -90,20 +90,16 @@ def test_large_drops_make_one_avalanche_of_all_blocks():
     assert (np.ptp(loads, axis=1) == 0.0).mean() >= 0.9
 
 
-def test_the_papers_edges_along_sliding():
-    """The paper's row, c(1), c(2), c(3), c(6), and the share of neighbours in one avalanche."""
-    found = correlation(EDGES["along"].transfer, samples=40)
-    assert found.mean[NEAR] == pytest.approx([0.602, 0.436, 0.338, 0.180], abs=0.015)
-    assert found.length().fitted.mean == pytest.approx(2.7, abs=0.15)
-    loads = found.times[:, :, 0]
-    assert (loads == np.roll(loads, 1, axis=-1)).mean() == pytest.approx(0.784, abs=0.01)
-    assert loads.mean() / EDGES["along"].overload == pytest.approx(0.641, abs=2e-3)
-
-
-def test_the_papers_edges_across_sliding():
-    found = correlation(EDGES["across"].transfer, samples=40)
-    assert found.mean[1] == pytest.approx(0.114, abs=0.01)
-    assert found.times.mean() / EDGES["across"].overload == pytest.approx(0.533, abs=1e-3)
+def test_the_papers_edges():
+    """Along sliding c(1), c(2), c(3), c(6) and the share of neighbours in one avalanche, too."""
+    along, across = (correlation(EDGES[shape].transfer, samples=40) for shape in EDGES)
+    assert along.mean[NEAR] == pytest.approx([0.602, 0.436, 0.338, 0.180], abs=0.015)
+    assert along.length().fitted.mean == pytest.approx(2.7, abs=0.15)
+    together = along.times == np.roll(along.times, 1, axis=-1)
+    assert together.mean() == pytest.approx(0.784, abs=0.01)
+    assert along.times.mean() / EDGES["along"].overload == pytest.approx(0.641, abs=2e-3)
+    assert across.mean[1] == pytest.approx(0.114, abs=0.01)
+    assert across.times.mean() / EDGES["across"].overload == pytest.approx(0.533, abs=1e-3)
 
 
 def test_less_scatter_lengthens_avalanches_and_strong_damping_shortens_them():

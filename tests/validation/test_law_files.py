@@ -29,9 +29,9 @@ def ageing(**constants):
     return replace(PAPER, mu_static=0.0, law=LawFile.read(AGEING, **constants))
 
 
-def one_block(material, duration, step=2e-8, **options):
+def one_block(material, duration, step=2e-8):
     surface = uniform(1, material.mu_static, material.mu_dynamic)
-    return simulate(surface, Setup(material, step=step, **options), duration=duration)
+    return simulate(surface, Setup(material, step=step), duration=duration)
 
 
 def test_slip_weakening_from_a_file_is_the_built_in_law(tmp_path):
@@ -139,9 +139,8 @@ def test_energy_closes_and_nothing_depends_on_a_prelude(law):
 
 
 FRICTION = "def friction(mu_dynamic):\n    return mu_dynamic\n"
-
-
 CONSTANTS, STATE = "CONSTANTS = {{{}}}\n" + FRICTION, "STATE = {{{}}}\n" + FRICTION
+OF_SPEED = "def friction(speed):\n    return {}\n"
 
 
 @pytest.mark.parametrize(
@@ -159,18 +158,9 @@ CONSTANTS, STATE = "CONSTANTS = {{{}}}\n" + FRICTION, "STATE = {{{}}}\n" + FRICT
         (STATE.format("'s': 'a'"), r"STATE\['s'\] must be a number or the name of"),
         (STATE.format("'s': 0.0"), "must define the function update"),
         (STATE.format("'s': 0.0") + "def update(s):\n    return s, s\n", "must return 1 finite"),
-        (
-            "def friction(speed):\n    return -1.0\n",
-            r"not negative, not -1.0 at rest \(speed = 0\)",
-        ),
-        (
-            "def friction(speed):\n    return 1.0 / speed\n",
-            r"friction fails at rest \(speed = 0\): ZeroDivision",
-        ),
-        (
-            "def friction(speed):\n    return len({1: speed, 'a': 2})\n",
-            "cannot be compiled by numba",
-        ),
+        (OF_SPEED.format("-1.0"), r"not negative, not -1.0 at rest \(speed = 0\)"),
+        (OF_SPEED.format("1.0 / speed"), r"friction fails at rest \(speed = 0\): ZeroDivision"),
+        (OF_SPEED.format("len({1: speed, 'a': 2})"), "cannot be compiled by numba"),
     ],
 )
 def test_a_file_that_is_no_law_is_refused_in_one_sentence(text, sentence, tmp_path):
