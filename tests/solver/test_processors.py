@@ -9,34 +9,27 @@ import numpy as np
 import pytest
 
 from specimens import drawn
-from springblock import Pattern, cli, simulate
+from springblock import Pattern, cli, read, simulate
 
 #: Of force and times up to the peak. Rounding differs by 1e-16 a step and grows over some thousand
 #: steps; beyond the peak of patterned surfaces, avalanches reorder (docs/accuracy.md).
 TOLERANCE = 1e-9
 
-ELSEWHERE = """
-import sys
-import numpy as np
-from springblock import Pattern, Surface, simulate
-run = simulate(Surface.draw(Pattern.pillars(24, 8, 4).contact, 1))
-np.savez(sys.argv[1], force=run.force, t_det=run.t_det, t_max=run.t_max)
-"""
-
 
 def test_any_processor_finds_the_same_run_up_to_its_peak(tmp_path):
     """Compared with a processor without AVX and fused multiply-adds."""
-    file = tmp_path / "run.npz"
+    file, scene = tmp_path / "run.parquet", "--n-blocks 24 --n-p 8 --n-s 4 --first-seed 1"
+    words = [sys.executable, "-m", "springblock", "simulate", *scene.split(), "--output", file]
     environment = {**os.environ, "NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
-    subprocess.run([sys.executable, "-c", ELSEWHERE, str(file)], env=environment, check=True)
-    generic = np.load(file)
+    subprocess.run(words, env=environment, check=True)
+    (generic,) = read(file)
     here = simulate(drawn(Pattern.pillars(24, 8, 4), 1))
-    assert generic["t_max"] == here.t_max
+    assert generic.t_max == here.t_max
     peak = int(np.argmax(here.force)) + 1
-    np.testing.assert_allclose(generic["force"][:peak], here.force[:peak], rtol=TOLERANCE)
+    np.testing.assert_allclose(generic.force[:peak], here.force[:peak], rtol=TOLERANCE)
     before = here.t_det < here.t_max
     assert before.sum() > 50
-    np.testing.assert_allclose(generic["t_det"][before], here.t_det[before], rtol=TOLERANCE)
+    np.testing.assert_allclose(generic.t_det[before], here.t_det[before], rtol=TOLERANCE)
 
 
 @pytest.mark.parametrize(
