@@ -84,10 +84,8 @@ def test_stress_stays_within_friction_and_follows_the_motion(integrator, periodi
     """
     contact = Pattern.pillars(24, 4, 4).contact
     mu_static, mu_dynamic = draw_friction(24, seed=1)
-    surface, fast = (
-        Surface(contact, mu_static, mu_dynamic, periodic),
-        Material(slider_velocity=5e-2),
-    )
+    surface = Surface(contact, mu_static, mu_dynamic, periodic)
+    fast = Material(slider_velocity=5e-2)
     how = {"duration": 4e-6, "snapshot_times": 2e-7 * np.arange(12, 16)}
     fields = simulate(surface, Setup(fast, integrator), direction=30, **how).fields
     load = threshold(fast) * contact.size / np.count_nonzero(contact)

@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from springblock import Material, Pattern, Surface, draw_friction
+from springblock import Material, Pattern, Surface
 from springblock.solver.integrators import LEAPFROG
 from springblock.solver.lattice import Samples, prepare
 from springblock.solver.loop import advance
@@ -34,9 +34,7 @@ SURFACES = {
 
 
 def start(contact, seed, material=FAST, periodic=False):
-    n_y, n_x = contact.shape
-    mu = (field[:n_y, :n_x] for field in draw_friction(max(n_y, n_x), seed))
-    surface = Surface(contact, *mu, periodic=periodic)
+    surface = Surface.draw(contact, seed, periodic=periodic)
     return prepare(surface, material, (0.8, 0.6), LEAPFROG, STEP)
 
 

@@ -1,4 +1,4 @@
-"""Release times within a step, and the forces from which they are computed."""
+"""Release times within a step; the forces behind them are tested in `test_specification.py`."""
 
 import numpy as np
 import pytest
@@ -7,9 +7,8 @@ from springblock import Material, Surface
 from springblock.solver.integrators import LEAPFROG
 from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.solver.loop import advance
-from springblock.solver.release import force_in_patch, make_releases, release_theta
+from springblock.solver.release import make_releases, release_theta
 from springblock.solver.springs import Springs
-from springs import SPRINGS, STIFFNESS, spring_forces
 
 #: A block that is coupled only to the slider, by a spring of stiffness one.
 ALONE = Springs.of(0.0, 1.0)
@@ -22,25 +21,6 @@ def surroundings(u_now, u_before):
     released.now[:], released.before[:] = 0.0, 0.0
     released.now[0, 2, 2], released.before[0, 1, 1] = u_now, u_before
     return released
-
-
-@pytest.mark.parametrize(("y", "x"), [(2, 2), (1, 3)])
-def test_the_force_in_a_patch_is_that_of_the_bands(y, x, rng):
-    u = 0.01 * rng.uniform(-1.0, 1.0, (2, 5, 5))
-    found = force_in_patch(u, y, x, *SPRINGS)
-    forces = STIFFNESS * spring_forces(u)
-    error = 1.7e-9 * np.abs(forces).max()  # of the polynomial; patches use the closed form
-    np.testing.assert_allclose(found, forces[:, y, x], rtol=0.0, atol=error)
-
-
-def test_beyond_the_edges_there_are_no_springs(rng):
-    """The central block of the patch is at a corner of the surface."""
-    u = 0.01 * rng.uniform(-1.0, 1.0, (2, 5, 5))
-    corner = u.copy()
-    corner[:, :2], corner[:, :, :2] = np.nan, np.nan
-    found = force_in_patch(corner, 2, 2, *SPRINGS)
-    forces = STIFFNESS * spring_forces(u[:, 2:, 2:])
-    np.testing.assert_allclose(found, forces[:, 0, 0], rtol=0.0, atol=1.7e-9 * np.abs(forces).max())
 
 
 @pytest.mark.parametrize("theta", [0.0, 0.1, 0.5, 1.0])

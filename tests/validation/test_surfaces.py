@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from springblock import Material, Setup, Surface, draw_friction, simulate
+from springblock import Material, Setup, Surface, simulate
 
 PAPER = Material()
 #: Loads a hundred times faster than the paper's: in 1500 steps all blocks detach.
@@ -13,9 +13,8 @@ LAWS = {"slip_weakening": {"slip_distance": 4e-7}, "velocity_weakening": {"speed
 
 def oblong(shape, share=1.0, seed=0, periodic=False):
     """Contact on a share of all blocks, and drawn coefficients."""
-    n_y, n_x = shape
-    mu = (field[:n_y, :n_x] for field in draw_friction(max(shape), seed))
-    return Surface(np.random.default_rng(seed).random(shape) < share, *mu, periodic=periodic)
+    contact = np.random.default_rng(seed).random(shape) < share
+    return Surface.draw(contact, seed, periodic=periodic)
 
 
 def moved(surface, move):
