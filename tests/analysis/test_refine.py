@@ -7,24 +7,18 @@ import pytest
 
 from springblock import Material, Pattern, Setup, Texture, refine
 from springblock.analysis import refine as module
+from springblock.analysis.ensembles import OBSERVABLES
 from springblock.analysis.refine import Refined
-from springblock.analysis.statistics import mean_interval
-
-
-class Made(list):
-    """Runs with the given static friction."""
-
-    def means(self):
-        return {"static_friction": mean_interval([run.static_friction for run in self])}
+from springblock.analysis.runs import Runs
 
 
 def refined(*means, scatter=1e-3):
-    offsets = scatter * np.array([-1.0, 0.0, 1.0])
-    contact = np.eye(2, dtype=bool)
-    runs = [
-        Made(SimpleNamespace(static_friction=m + d, contact=contact) for d in offsets)
-        for m in means
-    ]
+    """Three runs a lattice, with these means of static friction and of all else."""
+
+    def run(value):
+        return SimpleNamespace(**dict.fromkeys(OBSERVABLES, value), contact=np.eye(2, dtype=bool))
+
+    runs = [Runs(run(mean + scatter * i) for i in (-1, 0, 1)) for mean in means]
     return Refined([1e-5 / 2**i for i in range(len(means))], runs)
 
 
