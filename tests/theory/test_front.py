@@ -15,11 +15,10 @@ MATERIAL = Material(
 )
 SHAPES = ("along", "across")
 BOTH = pytest.mark.parametrize("shape", SHAPES)
-#: Of the centres of the row beyond l_z with l = 2.5 µm, m.
-DEPTH = 1.125e-5
 
 
-def front(shape, depth=DEPTH, **varied):
+def front(shape, depth=1.125e-5, **varied):
+    """At a depth in m, by default of the centres of the row beyond l_z with l = 2.5 µm."""
     return Front.of(replace(MATERIAL, **varied), shape, depth, 8e-5, 8e-5)
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 import pandas as pd
 from scipy.stats import wilcoxon
 
-from springblock import Pattern, Setup, Surface, compute_prelude, simulate
+from springblock import Pattern, Surface, compute_prelude, simulate
 
 SCENES = {
     "flat": Pattern.flat(16),
@@ -27,34 +27,28 @@ LEVEL = 0.01 / (len(SCENES) * len(OBSERVABLES))
 ROUNDING = 1e-9  #: largest relative difference that no avalanche has amplified
 
 
-def ensembles(setup):
+def ensembles():
     """Observables of all realisations, by scene and seed."""
     rows = {}
     for scene, pattern in SCENES.items():
-        prelude = compute_prelude(pattern.contact, setup)
+        prelude = compute_prelude(pattern)
         for seed in range(SEEDS):
-            surface = Surface.draw(pattern.contact, seed, setup.material)
-            run = simulate(surface, setup, prelude=prelude)
+            run = simulate(Surface.draw(pattern, seed), prelude=prelude)
             rows[scene, seed] = [getattr(run, name) for name in OBSERVABLES]
     index = pd.MultiIndex.from_tuples(rows, names=["scene", "seed"])
     return pd.DataFrame(rows.values(), index, OBSERVABLES)
 
 
-def changed(found):
-    """Scenes and observables whose differences from the record are more than rounding."""
-    recorded = pd.read_csv(RECORD, index_col=["scene", "seed"])
-    apart = found / recorded - 1.0
-    return [
+def test_this_processor_and_these_packages_give_the_recorded_physics():
+    apart = ensembles() / pd.read_csv(RECORD, index_col=["scene", "seed"]) - 1.0
+    changed = [
         (scene, name)
         for scene, values in apart.where(apart.abs() > ROUNDING).groupby("scene")
         for name in OBSERVABLES
         if (differing := values[name].dropna()).size and wilcoxon(differing).pvalue < LEVEL
     ]
-
-
-def test_this_processor_and_these_packages_give_the_recorded_physics():
-    assert changed(ensembles(Setup())) == []
+    assert changed == []
 
 
 if __name__ == "__main__":
-    ensembles(Setup()).to_csv(RECORD)
+    ensembles().to_csv(RECORD)

@@ -1,9 +1,10 @@
-"""What holds of any surface, material, law, edge, direction and step, on random draws."""
+"""What holds of any surface, material, law, edge, direction and step, mostly on random draws."""
 
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -20,7 +21,6 @@ from springblock.model.material import LAWS
 from springblock.model.scene import FIELDS
 from springblock.solver.integrators import INTEGRATORS, limit
 from springblock.study.accuracy.stability.cases import Pull
-from validation.test_surfaces import assert_moved, moved
 
 LOADING = 200  #: steps until a block without neighbours would detach
 STEPS = 500
@@ -81,6 +81,22 @@ def cases(draw, periodic=None) -> Case:
     return Case(surface, setup, draw(st.floats(0.0, 360.0)))
 
 
+def moved(surface, move):
+    """The surface with each of its fields moved."""
+    fields = (surface.contact, surface.mu_static, surface.mu_dynamic)
+    return Surface(*map(move, fields), periodic=surface.periodic)
+
+
+def assert_moved(run, other, move, signs=(1, 1)):
+    """The other run is the first one moved, to the last bit; sums of force to rounding."""
+    np.testing.assert_array_equal(other.t_det, move(run.t_det))
+    for name in ("displacement", "velocity"):
+        for sign, one, found in zip(signs, getattr(run, name), getattr(other, name), strict=True):
+            np.testing.assert_array_equal(found, sign * move(one))
+    np.testing.assert_array_equal(other.switches, run.switches)
+    np.testing.assert_allclose(other.force, run.force, rtol=0, atol=1e-12 * run.force.max())
+
+
 @given(cases())
 def test_energy_closes(case):
     run, setup = case.run(), case.setup
@@ -95,6 +111,20 @@ def test_a_mirrored_surface_moves_as_the_mirror_image(case, across):
     run = case._replace(direction=towards).run()
     mirrored = Case(moved(case.surface, flip), case.setup, back)
     assert_moved(run, mirrored.run(), flip, (-1.0, 1.0) if across else (1.0, -1.0))
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_an_oblong_surface_turned_over_is_pulled_along_the_other_axis(integrator, periodic):
+    """Sums are taken in another order, and rounding grows from one avalanche to the next."""
+    setup = Setup(Material(slider_velocity=5e-2), integrator)
+    surface = Surface.draw(np.ones((4, 11), bool), seed=1, periodic=periodic)
+    run = simulate(surface, setup, "x", 6e-6)
+    turned = simulate(moved(surface, np.transpose), setup, "y", 6e-6)
+    assert np.isfinite(run.t_det).sum() > 20
+    np.testing.assert_allclose(turned.t_det.T, run.t_det, rtol=1e-9)
+    np.testing.assert_allclose(turned.force, run.force, rtol=1e-9)
+    image, scale = run.displacement.transpose(0, 2, 1), np.abs(run.displacement).max()
+    np.testing.assert_allclose(turned.displacement[::-1], image, rtol=0, atol=1e-9 * scale)
 
 
 @given(cases(periodic=True), st.tuples(st.integers(0, 8), st.integers(0, 8)))
