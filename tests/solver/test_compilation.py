@@ -20,19 +20,14 @@ logging.basicConfig(format="%(message)s")
 
 @kernel
 def doubled(x):
-    for i in range(len(x)):
-        x[i] = 2.0 * x[i]
-    return x[-1]
+    return 2.0 * x[0]
 
 @kernel
 def summed(x):
-    total = 0.0
-    for i in range(len(x)):
-        total += x[i]
-    return total
+    return x[0] + x[1]
 
-assert doubled(np.arange(5).astype(sys.argv[1])) == 8.0
-assert summed(np.arange(4).astype(sys.argv[1])) == 6.0
+x = np.ones(2, sys.argv[1])
+assert doubled(x) == summed(x) == 2.0
 if hasattr(doubled, "stats"):
     print(*(sum(function.stats.cache_hits.values()) for function in (doubled, summed)))
 """
