@@ -237,7 +237,6 @@ def array(value, dtype=float, shape=(2, 2)):
         ),
         ({"duration": 1e-7}, "duration must be at least one sample_interval"),
         ({"duration": 1e9}, r"5e\+16 steps of 4 blocks would take 29 years"),
-        ({"duration": 2e3}, "sample_interval = 2e-07 s is too short for a duration of 2000 s"),
         ({"duration": "long", "snapshot_times": [2e-7]}, "duration must be a number"),
         ({"snapshot_times": ["2e-7"]}, "snapshot_times must be a number"),
         ({"snapshot_times": [3e-7]}, "snapshot_times must be a multiple of sample_interval"),
