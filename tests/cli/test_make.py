@@ -30,7 +30,7 @@ def test_too_few_or_too_many_inputs_are_refused(springblock, tmp_path):
 
 @pytest.mark.parametrize("word", ["agrees", "drifts"])
 def test_cases_are_written_if_each_comes_out_as_expected(springblock, word, tmp_path, monkeypatch):
-    case = Case("size", "rk4", "nothing", 0.0, "none", lambda _: Outcome(word))
+    case = Case("size", "rk4", "nothing", 0.0, lambda _: Outcome(word))
     monkeypatch.setattr(stability, "all_cases", lambda: [case])
     output, refused = tmp_path / "table.parquet", word == "drifts"
     said = springblock("make", "stability", "--output", output, refused=refused)

@@ -168,9 +168,7 @@ def test_other_realisations_refute_a_part_of_a_statement(name, part, scenes, cha
 @pytest.mark.parametrize(("grooves", "expected"), [(0.1, "reproduced"), (0.3, REFUTED)])
 def test_the_stress_is_compared_with_that_on_the_same_pillars(grooves, expected, monkeypatch):
     known = {paper.ALONG: grooves, paper.PLAIN: 0.2}
-    monkeypatch.setattr(
-        "springblock.study.claims.grooves.unevenness", lambda scene, _: known[scene]
-    )
+    monkeypatch.setattr("springblock.study.claims.grooves.unevenness", known.get)
     assert judge("more_uniform", paper.evidence(records())) == expected
 
 

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from springblock import compute_prelude
-from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.simulation.peaks import Peaks
 from springblock.study.claims.flat import (
@@ -131,9 +130,9 @@ def test_the_stress_before_any_slip_follows_from_elasticity():
     scene = Scene(12, 4, 2)
     peak = compute_prelude(scene.contact, direction="x").peak[-1]
     computed = np.sqrt(peak)
-    found = unevenness(scene, Material())
+    found = unevenness(scene)
     assert found == pytest.approx(computed.std() / computed.mean(), rel=0.02)
-    assert unevenness(Scene(12), Material()) == pytest.approx(0.0, abs=1e-9)
+    assert unevenness(Scene(12)) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_the_ensemble_error_falls_with_the_root_of_the_number_of_seeds():

@@ -19,11 +19,10 @@ _METHODS = style.METHODS | {
 _ORDER_TWO: Look = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (5, 3))}
 _SCATTER: Look = {"color": "#D6E4EE", "linewidth": 0.0, "zorder": 0}
 _RING: Look = {"fillstyle": "none", "color": BLACK, "linestyle": "none"}
-_DEFAULT_RING: Look = _RING | {"marker": "o", "markersize": 8.5}
-#: Integrator, step in s and ring of the default of `simulate` and of the paper.
+#: Integrator, step in s, and marker of the ring of the default of `simulate` and of the paper.
 _MARKED: dict[str, tuple[str, float, Look]] = {
-    "default": (INTEGRATOR, STEP, _DEFAULT_RING),
-    "paper": (PLAIN, PAPER_STEP, {**_RING, "marker": "D", "markersize": 7.5}),
+    "default": (INTEGRATOR, STEP, {"marker": "o", "markersize": 8.5}),
+    "paper": (PLAIN, PAPER_STEP, {"marker": "D", "markersize": 7.5}),
 }
 
 #: Outcomes without an error to show: marker, its height as a share of the panel, and name.
@@ -85,10 +84,10 @@ def _draw_costs(ax: Axes, rows: DataFrame) -> None:
     finest, spent = lines["leapfrog"].iloc[0], lines["leapfrog"].cpu_seconds
     order_two = finest.error * (finest.cpu_seconds / spent) ** 2 / 3.0
     ax.plot(spent, order_two, label="order 2", **_ORDER_TWO)
-    for name, (method, step, look) in _MARKED.items():
+    for name, (method, step, marker) in _MARKED.items():
         row = lines[method][np.isclose(lines[method].step, step, rtol=1e-6, atol=0.0)]
         label = f"{name}: {_METHODS[method]['label'].split(',')[0]}, {NANO * step:g} ns"
-        ax.plot(row.cpu_seconds, row.error, label=label, **look)
+        ax.plot(row.cpu_seconds, row.error, label=label, **_RING, **marker)
 
 
 def stability(cases: DataFrame) -> Figure:

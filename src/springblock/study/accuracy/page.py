@@ -53,7 +53,6 @@ def values(
     """Return what the template names, from the rows of the tables."""
     single = select(precision, comparison="reference")
     leapfrog = select(single, integrator="leapfrog")
-    default = select(leapfrog, step=STEP)
     finest_single = select(leapfrog, step=min(row["step"] for row in leapfrog))
     frictions = select(single, quantity="static_friction")
     plain = select(frictions, integrator=PLAIN)
@@ -85,8 +84,8 @@ def values(
             _of_method(select(frictions, integrator=integrator, step=step))
             for integrator, step in product((*_INTEGRATORS, PLAIN), _SINGLE_STEPS)
         ],
-        "single_blocks": sorted(row["n_blocks"] for row in default),
-        "single_seeds": min(row["realisations"] for row in default),
+        "single_blocks": sorted(row["n_blocks"] for row in finest_single),
+        "single_seeds": min(row["realisations"] for row in finest_single),
         "growth": [double_step[scene] / paper[scene] for scene in SCENES],
         "finest_single": finest_single[0]["step"],
         "floor": max(row["error"] for row in finest_single if row["quantity"] in ORDERED),
@@ -107,8 +106,9 @@ def values(
 
 def errors(production: Sequence[Row]) -> dict[tuple[str, str], Errors]:
     """Return the errors at the default step by quantity and scene, from the table `production`."""
-    found = (_errors(rows) for rows in _cases(production))
-    return {(each.quantity, each.scene): each for each in found}
+    keys = product((*MEANS, DELAY, LENGTH), SCENES)
+    every = {key: select(production, quantity=key[0], scene=key[1]) for key in keys}
+    return {key: _errors(rows) for key, rows in every.items() if rows}
 
 
 def finest_bias(rows: Iterable[Row]) -> float:
@@ -119,13 +119,6 @@ def finest_bias(rows: Iterable[Row]) -> float:
     """
     finest, following = sorted(rows, key=lambda row: row["step"])[:2]
     return _far_end(following) / (following["step"] / finest["step"] - 1.0)
-
-
-def _cases(production: Sequence[Row]) -> Iterable[list[Row]]:
-    """Yield the rows of each quantity on each scene that has it."""
-    for quantity, scene in product((*MEANS, DELAY, LENGTH), SCENES):
-        if rows := select(production, quantity=quantity, scene=scene):
-            yield rows
 
 
 def _errors(rows: Sequence[Row]) -> Errors:

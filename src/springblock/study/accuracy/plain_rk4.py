@@ -5,27 +5,12 @@ back. The stage velocities of a slow block alternate in sign, so that it creeps 
 to rest. SI units; not optimised: the force of the first stage is evaluated twice.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numba import njit
 
 from springblock.model.material import Material
-from springblock.model.numbers import Array
 from springblock.model.surface import Surface
-
-
-@dataclass
-class Solution:
-    """Result of a run; names and units as in `springblock.Realisation`."""
-
-    time: Array
-    force: Array
-    t_det: Array
-    static_friction: float
-    t_max: float
-    t_avg: float
-    steps: int
+from springblock.study.accuracy.solutions import Solution
 
 
 @njit(cache=True)

@@ -39,14 +39,15 @@ SMALL = {
 
 
 class Solution(NamedTuple):
-    """Stored solution of one run. Arrays over blocks are indexed [y, x]."""
+    """Solution of one run, names as in `Realisation`. Arrays over blocks are indexed [y, x]."""
 
     time: Array  #: (n,) s, multiples of the sample interval
-    force: Array  #: (n,) N, |sum of F_s| at these times, in single precision
+    force: Array  #: (n,) N, |sum of F_s| at these times; stored in single precision
     t_det: Array  #: (N_y, N_x) s, first detachment; NaN where never or not in contact
     static_friction: float  #: greatest sampled force over P l² N_y N_x
     t_max: float  #: s, time of that sample
     t_avg: float  #: s, mean of t_det over the contact blocks that detached
+    steps: int = 0  #: number of integration steps; not stored
 
 
 def solutions(scene: str) -> list[Solution]:

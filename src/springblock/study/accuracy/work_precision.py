@@ -25,7 +25,7 @@ from springblock.model.defaults import PAPER_STEP
 from springblock.model.numbers import Array
 from springblock.model.pattern import Pattern
 from springblock.model.surface import Surface
-from springblock.simulation.prelude import compute_prelude
+from springblock.simulation.prelude import Prelude, compute_prelude
 from springblock.simulation.run import Realisation
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
@@ -83,8 +83,7 @@ FORCE_EVALUATIONS[PLAIN] = 4
 PAIRED_SEEDS = {"rk4": 50, PLAIN: 20}  #: at most; fewer where a step costs more
 FINE_STEP = 5e-9  #: at second order, it has a quarter of the error of the paper's
 Errors = dict[str, Array]  #: by quantity, one for each realisation
-Computed = Realisation | plain_rk4.Solution
-Solved = Computed | Solution
+Computed = Realisation | Solution
 Timed = tuple[Computed, float]  #: a run and its CPU time, s
 Cost = tuple[float, float]  #: median CPU time, s, and mean force evaluations of a realisation
 Result = TypeVar("Result")
@@ -120,18 +119,26 @@ def timed(solve: Callable[[], Result]) -> tuple[Result, float]:
     return solve(), time.process_time() - start
 
 
+def setup_of(integrator: str, step: float) -> Setup:
+    """Return the numerical parameters of a run."""
+    return Setup(integrator=integrator, step=step, sample_interval=SAMPLE_INTERVAL)
+
+
 def solve_with(
     integrator: str,
     step: float,
     surface: Surface,
-    duration: float,
-    sample_interval: float = SAMPLE_INTERVAL,
+    duration: float = 0.0,
+    prelude: Prelude | None = None,
 ) -> Computed:
-    """Compute one realisation by any of the three methods."""
+    """Compute one realisation by any of the three methods.
+
+    Without a duration, s, the integrators stop once the surface slides; the plain method needs one.
+    """
     if integrator == PLAIN:
-        return plain_rk4.solve(surface, duration, step, sample_interval)
-    setup = Setup(integrator=integrator, step=step, sample_interval=sample_interval)
-    return simulate(surface, setup, duration=duration)
+        return plain_rk4.solve(surface, duration, step, SAMPLE_INTERVAL)
+    setup = setup_of(integrator, step)
+    return simulate(surface, setup, duration=duration or None, prelude=prelude)
 
 
 def cost_of(integrator: str, runs: Sequence[Timed]) -> Cost:
@@ -174,7 +181,8 @@ def paired_rows(scene: str) -> Iterator[Row]:
     exact, longest = means_of(fine), max(float(run.time[-1]) for run, _ in fine)
     for integrator in FORCE_EVALUATIONS:
         few = min(seeds, PAIRED_SEEDS.get(integrator, seeds))
-        runs = ensemble(scene, integrator, PAPER_STEP, few, longest)
+        duration = longest if integrator == PLAIN else 0.0
+        runs = ensemble(scene, integrator, PAPER_STEP, few, duration)
         means, cost = means_of(runs), cost_of(integrator, runs)
         errors = {name: means[name] / exact[name][:few] - 1.0 for name in MEANS}
         yield from rows_of("paired", scene, integrator, PAPER_STEP, errors, cost)
@@ -185,19 +193,12 @@ def paired_rows(scene: str) -> Iterator[Row]:
 def ensemble(
     scene: str, integrator: str, step: float, seeds: int, duration: float = 0.0
 ) -> list[Timed]:
-    """Return one run per seed.
-
-    `duration`, s, is for the plain method; the integrators stop once the surface slides.
-    """
-    pattern, _ = ENSEMBLES[scene]
-    solve: Callable[[Surface], Computed]
-    if integrator == PLAIN:
-        solve = partial(solve_with, PLAIN, step, duration=duration)
-    else:
-        setup = Setup(integrator=integrator, step=step, sample_interval=SAMPLE_INTERVAL)
-        solve = partial(simulate, setup=setup, prelude=compute_prelude(pattern.contact, setup))
+    """Return one run per seed, with a common prelude where the method has one."""
+    contact = ENSEMBLES[scene][0].contact
+    prelude = None if integrator == PLAIN else compute_prelude(contact, setup_of(integrator, step))
+    solve = partial(solve_with, integrator, step, duration=duration, prelude=prelude)
     described = f"{integrator} {step:g}"
-    surfaces = (Surface.draw(pattern.contact, seed) for seed in tqdm(range(seeds), desc=described))
+    surfaces = (Surface.draw(contact, seed) for seed in tqdm(range(seeds), desc=described))
     return [timed(partial(solve, surface)) for surface in surfaces]
 
 
@@ -215,7 +216,7 @@ def twins(scene: str, seed: int) -> tuple[Computed, Computed]:
     return one, other
 
 
-def horizon(one: Solved, other: Solved) -> float:
+def horizon(one: Computed, other: Computed) -> float:
     """Time in s up to which two runs agree on t_det within 0.1 % of t_max; infinite without one."""
     both = np.isfinite(one.t_det) & np.isfinite(other.t_det)
     apart = both & (np.abs(one.t_det - other.t_det) > 1e-3 * one.t_max)

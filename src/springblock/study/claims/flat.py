@@ -1,6 +1,7 @@
 """The method, and flat surfaces: isolated precursors, then a front (sections 2 and 3.1)."""
 
 from collections.abc import Iterator, Mapping
+from itertools import product
 from operator import attrgetter
 from typing import Any
 
@@ -16,7 +17,6 @@ from springblock.simulation.run import Run
 from springblock.study.claims import rule, samples, surfaces
 from springblock.study.claims.rule import INF, Case, Evidence, Finding, tests_statement
 from springblock.study.claims.samples import on_each, over_runs, share_of, share_on_each
-from springblock.study.claims.surfaces import Mask
 
 _FRONT = 20  #: blocks that a cluster of a front exceeds
 _RATIO = {"youngs_modulus", "pressure"}
@@ -25,17 +25,16 @@ _SEEDS = 20  #: of the paper's ensembles
 
 @tests_statement
 def step_suffices(evidence: Evidence) -> Iterator[Finding]:
-    scatter = select(evidence.precision, comparison="scatter")
-    errors = {(row["scene"], row["quantity"]): ensemble_error(row) for row in scatter}
+    scatters = select(evidence.precision, comparison="scatter")
     paired = select(evidence.precision, comparison="paired", step=PAPER_STEP)
-    for integrator in dict.fromkeys(row["integrator"] for row in paired):
-        for row in select(paired, integrator=integrator):
-            scene, quantity = row["scene"], row["quantity"]
-            if (error := errors.get((scene, quantity))) is not None:
-                name = f"the relative bias of {quantity.replace('static_f', 'static f')}"
-                statistic = f"{name} at h = {PAPER_STEP:.0e} s on the {scene} surface"
-                bias, case = samples.interval(row, "error"), Case(integrator=integrator)
-                yield Finding(case, statistic, bias, (-error, error))
+    methods = dict.fromkeys(row["integrator"] for row in paired)
+    for integrator, scatter in product(methods, scatters):
+        measured = {name: scatter[name] for name in ("scene", "quantity")}
+        for row in select(paired, integrator=integrator, **measured):
+            name = f"the relative bias of {row['quantity'].replace('static_f', 'static f')}"
+            statistic = f"{name} at h = {PAPER_STEP:.0e} s on the {row['scene']} surface"
+            error, case = ensemble_error(scatter), Case(integrator=integrator)
+            yield Finding(case, statistic, samples.interval(row, "error"), (-error, error))
 
 
 def ensemble_error(scatter: Mapping[str, Any], realisations: int = _SEEDS) -> float:
@@ -48,13 +47,13 @@ def ensemble_error(scatter: Mapping[str, Any], realisations: int = _SEEDS) -> fl
 
 @tests_statement
 def same_ratio(evidence: Evidence) -> Iterator[Finding]:
-    flats = [scene for scene in evidence.records if not scene.level]
-    own = {scene: surfaces.own_constants(evidence.records, scene) for scene in flats}
-    alike = [scene for scene in flats if own[scene].keys() - {"step"} == _RATIO]
+    records = evidence.records
+    own = {s: surfaces.own_constants(records, s) for s in records if not s.level}
+    alike = [scene for scene in own if own[scene].keys() - {"step"} == _RATIO]
     name = "static friction minus that with the paper's material, over the latter"
-    for flat, usual in surfaces.flat(evidence.records).items():
+    for flat, usual in surfaces.flat(records).items():
         for scene in sorted(alike, key=attrgetter("youngs_modulus")):
-            runs, modulus = evidence.records[scene], scene.youngs_modulus
+            runs, modulus = records[scene], scene.youngs_modulus
             case = Case(constant="youngs_modulus", constant_value=modulus)
             ours, paper = (over_runs(samples.static_friction, each) for each in (runs, usual))
             more = samples.difference(ours, paper) / float(paper.mean())
@@ -63,7 +62,7 @@ def same_ratio(evidence: Evidence) -> Iterator[Finding]:
             yield Finding(case, "(t_max - t_avg)/t_max", lag, rule.NEGATIVE, [scene])
 
 
-def clusters(blocks: Mask) -> NDArray[np.integer]:
+def clusters(blocks: surfaces.Mask) -> NDArray[np.integer]:
     """Number the clusters of blocks, joined by sides and corners, from 1 on; 0 elsewhere."""
     from scipy.ndimage import label  # slow to import
 

@@ -14,25 +14,15 @@ from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import prominence_of_mean
 from springblock.io.records import Record
 from springblock.model.direction import degrees
-from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.simulation.peaks import PROMINENT, Peaks, both_peaks
 from springblock.simulation.run import Run
 from springblock.study.claims import rule, samples, surfaces
-from springblock.study.claims.rule import (
-    INF,
-    Case,
-    Evidence,
-    Finding,
-    Range,
-    Records,
-    tests_statement,
-)
-from springblock.study.claims.samples import on_each
+from springblock.study.claims.rule import Case, Evidence, Finding, tests_statement
 from springblock.study.claims.surfaces import across, case_of, grooved, pillars, slid_both_ways
 from springblock.theory.elasticity import Layer
 
-_TWO_PEAKS, _ONE_PEAK = (PROMINENT, INF), (-INF, PROMINENT)
+_TWO_PEAKS, _ONE_PEAK = (PROMINENT, rule.INF), (-rule.INF, PROMINENT)
 _LESSER = "the prominence of the lesser peak of the mean force over its largest value"
 Twice = tuple[Record, Peaks]  #: a run with two load peaks
 _NARROW = 2  #: largest width of grooves that count as narrow, blocks
@@ -57,14 +47,14 @@ def faster_along(evidence: Evidence) -> Iterator[Finding]:
         yield samples.compared(evidence, name, duration, pair, rule.NEGATIVE, case)
 
 
-def unevenness(scene: Scene, material: Material) -> float:
+def unevenness(scene: Scene) -> float:
     """Return the standard deviation of the stress before the first detachment over its mean.
 
     The layer is then in static equilibrium under the pull of the slider, along x; forces follow
     from its linear elasticity and do not depend on the thresholds.
     """
     forces = np.full((2, *scene.shape), np.nan)
-    forces[:, scene.contact] = Layer(scene.contact, material).pull.reshape(2, -1)
+    forces[:, scene.contact] = Layer(scene.contact, scene.material).pull.reshape(2, -1)
     forces /= np.nanmean(np.hypot(*forces))
     return float(np.nanstd(np.hypot(*forces)))
 
@@ -72,19 +62,18 @@ def unevenness(scene: Scene, material: Material) -> float:
 @tests_statement
 def more_uniform(evidence: Evidence) -> Iterator[Finding]:
     name = "the standard deviation of the stress over its mean, with grooves minus without"
-    for scene, (run, *_) in grooved(evidence.records).items():
+    for scene in grooved(evidence.records):
         plain = replace(scene, n_p2=0, n_s2=0)
         if plain in evidence.records:
-            more = unevenness(scene, run.material) - unevenness(plain, run.material)
-            source = [scene, plain]
+            more = unevenness(scene) - unevenness(plain)
             exact = Estimate(more, more, more)
-            yield Finding(case_of(scene), name, exact, rule.NEGATIVE, source)
+            yield Finding(case_of(scene), name, exact, rule.NEGATIVE, [scene, plain])
 
 
 def prominent(
     evidence: Evidence,
     scene: Scene,
-    claimed: Range,
+    claimed: rule.Range,
     statistic: str = _LESSER,
     case: Case | None = None,
     rank: int = 2,
@@ -137,7 +126,7 @@ def further_levels(evidence: Evidence) -> Iterator[Finding]:
         yield prominent(evidence, along, _TWO_PEAKS, third, case, rank=3)
 
 
-def twice_peaked(records: Records) -> dict[Scene, list[Twice]]:
+def twice_peaked(records: rule.Records) -> dict[Scene, list[Twice]]:
     """Return the runs with two load peaks, with these, of scenes where most runs have two.
 
     Scenes are grooved pillars that slide along their grooves, and were also slid across them.
@@ -196,7 +185,7 @@ _AT_REST = f"the share of core blocks not detached {_BY_VALLEY}"
 _SLIPS = f"the number of further slips between the load peaks per block detached {_BY_VALLEY}"
 _STRESS = "the lowest force between the load peaks over the normal force, minus the mean mu_dynamic"
 #: Parts of the statement, each with its statistic, quantity and claimed range.
-_PHASE: dict[str, tuple[str, Callable[[Twice], float], Range]] = {
+_PHASE: dict[str, tuple[str, Callable[[Twice], float], rule.Range]] = {
     "quiet beside all": (f"{_RATE} all detachments", over_all, rule.FEWER_THAN_HALF),
     "quiet beside most": (f"{_RATE} the transition", over_most, rule.FEWER_THAN_HALF),
     "the core at rest": (_AT_REST, core_at_rest, rule.NEARLY_ALL),
@@ -209,4 +198,4 @@ _PHASE: dict[str, tuple[str, Callable[[Twice], float], Range]] = {
 def quasi_static_phase(evidence: Evidence) -> Iterator[Finding]:
     scenes = twice_peaked(evidence.records)
     for part, (statistic, quantity, claimed) in _PHASE.items():
-        yield from on_each(scenes, statistic, quantity, claimed, part=part)
+        yield from samples.on_each(scenes, statistic, quantity, claimed, part=part)

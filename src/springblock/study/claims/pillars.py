@@ -21,9 +21,8 @@ from springblock.simulation.run import Run
 from springblock.study.claims import rule, samples, surfaces
 from springblock.study.claims.rule import Case, Evidence, Finding, tests_statement
 from springblock.study.claims.samples import Quantity, on_each, over_runs, share_on_each
-from springblock.study.claims.surfaces import Mask, case_of, pillars, pillars_of
+from springblock.study.claims.surfaces import Mask, case_of, core, pillars, pillars_of
 
-_OUTER = 2  #: outermost rings: the border and the blocks adjacent to it
 #: Parts of a ring in the paper's order of detachment, for sliding along x.
 _RING = {"corners": "corners", "y": "edges along y", "x": "edges along x"}
 _PRECURSORS = "the share of contact blocks that detach before t_max"
@@ -82,24 +81,25 @@ def always_in_order(evidence: Evidence) -> Iterator[Finding]:
     every, claimed = pillars(evidence.records), rule.NEARLY_ALL
     yield from share_on_each(every, name, in_order, claimed, part="single pillars")
     for scatter, scenes in _by_scatter(evidence).items():
-        varied = {"constant": _SCATTER, "constant_value": scatter}
         own = surfaces.own_constants(evidence.records, scenes[0])
         for scene in (s for s in scenes if own and s.n_p >= surfaces.SMALLEST):
-            case = case_of(scene, part="mean times", **varied)
+            case = case_of(scene, part="mean times", constant=_SCATTER, constant_value=scatter)
             yield from _in_order(scene, evidence.records[scene], case)
 
 
-def early_near_border(run: Record) -> float:
+def border(run: Run) -> Mask:
+    """Return the blocks on the border of pillars and those adjacent to it, (N, N)."""
+    return run.contact & ~core(core(run.contact))
+
+
+def early_near_border(run: Run) -> float:
     """Return the share of the blocks in the two outermost rings that detach before t_max."""
-    early = np.stack(pillars_of(run.t_det < run.t_max, run.scene))
-    return float(early[:, surfaces.from_edge(run.scene.n_p) < _OUTER].mean())
+    return samples.share_of(run.t_det < run.t_max, border(run))
 
 
-def near_border(run: Record) -> float:
-    """Return the share of the precursors in the two outermost rings of a pillar."""
-    early = np.stack(pillars_of(run.t_det < run.t_max, run.scene))
-    border = surfaces.from_edge(run.scene.n_p) < _OUTER
-    return samples.share_of(np.broadcast_to(border, early.shape), early)
+def near_border(run: Run) -> float:
+    """Return the share of the precursors in the two outermost rings of pillars."""
+    return samples.share_of(border(run), run.t_det < run.t_max)
 
 
 @tests_statement
@@ -130,7 +130,7 @@ def peak_after_average(evidence: Evidence) -> Iterator[Finding]:
 
 def warning(run: Run) -> float:
     """Return the time from the first detachment to t_max, over t_max."""
-    return 1.0 - float(np.nanmin(run.t_det)) / run.t_max
+    return 1.0 - run.t_first / run.t_max
 
 
 @tests_statement
@@ -200,13 +200,9 @@ def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
 
 
 @tests_statement
-def size_like_length(evidence: Evidence) -> Iterator[Finding]:
-    found = _sizes_over_length(evidence)
-    yield from sorted(found, key=attrgetter("case.fit"))  # all scatters are one case
-
-
-def _sizes_over_length(evidence: Evidence) -> Iterator[Finding]:
-    """Yield the size of lowest static friction over l_c for each scatter and each fit."""
+def size_like_length(evidence: Evidence) -> Iterable[Finding]:
+    """Compare the size of lowest static friction with l_c, for each scatter and each fit."""
+    found = []
     for scatter, scenes in _by_scatter(evidence).items():
         own = surfaces.own_constants(evidence.records, scenes[0])
         candidates = scenes if own else _of_all_sizes(evidence)
@@ -220,7 +216,9 @@ def _sizes_over_length(evidence: Evidence) -> Iterator[Finding]:
         for curve, fitted in ((surfaces.PLAIN, fit.fitted), (surfaces.SCALED, fit.tail)):
             value, low, high = map(float, fitted)
             ratios = [Estimate(n_p / value, n_p / high, n_p / low, len(runs)) for n_p in sizes]
-            yield Finding(Case(fit=curve), name, AnyOf.these(*ratios), rule.COMPARABLE, behind)
+            any_size, case = AnyOf.these(*ratios), Case(fit=curve)
+            found.append(Finding(case, name, any_size, rule.COMPARABLE, behind))
+    return sorted(found, key=attrgetter("case.fit"))  # all scatters are one case
 
 
 def _over_t_avg(quantity: Quantity, runs: Iterable[Record]) -> Array:

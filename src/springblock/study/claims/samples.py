@@ -113,8 +113,7 @@ def compared(
 
 def before_peak(run: Run) -> float:
     """Return the share of all detaching blocks that detach before t_max."""
-    times = run.t_det[np.isfinite(run.t_det)]
-    return float(np.mean(times < run.t_max))
+    return share_of(run.t_det < run.t_max, np.isfinite(run.t_det))
 
 
 def lag(run: Run) -> float:

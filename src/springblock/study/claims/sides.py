@@ -14,12 +14,11 @@ import numpy as np
 from springblock.analysis.correlation import LAST, Correlation, misfits, side_times
 from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import Interval, bootstrap_interval, events
-from springblock.io.rows import Row
+from springblock.io.rows import Row, select
 from springblock.model.numbers import Array
 from springblock.model.scene import Scene
 from springblock.study.claims import rule, samples
 from springblock.study.claims.rule import INF, Evidence, Finding, tests_statement
-from springblock.study.claims.samples import interval
 from springblock.study.claims.surfaces import ALONG, PLAIN, SCALED, case_of, pillars
 
 _DECAYED = (-INF, float(np.exp(-1.0)))
@@ -30,8 +29,8 @@ _FITS = {PLAIN: ("l_c", "ci"), SCALED: ("tail", "tail")}
 
 def _length(rows: Iterable[Row], name: str, limits: str) -> Estimate:
     """Return a length of c_x from its columns, blocks."""
-    (row,) = (row for row in rows if row["side"] == "x")
-    return interval(row, name, limits)
+    (row,) = select(rows, side="x")
+    return samples.interval(row, name, limits)
 
 
 def mixed(times: Array) -> Array:
@@ -57,7 +56,7 @@ def _sides_of(evidence: Evidence, scene: Scene, side: str) -> tuple[Array, Array
 def correlated_along(evidence: Evidence) -> Iterator[Finding]:
     name = "c_x(r = 3) - c_y(r = 3) (sum of both intervals)"
     for scene, rows in pillars(evidence.correlation, _BROAD).items():
-        c = {(row["side"], row["r"]): interval(row, "correlation") for row in rows}
+        c = {(row["side"], row["r"]): samples.interval(row, "correlation") for row in rows}
         apart, case = c["x", 3].minus_paired(c["y", 3]), case_of(scene, part="correlation")
         yield Finding(case, name, apart, rule.POSITIVE, [scene])
         yield Finding(case, "c_y(r = 1)", c["y", 1], _DECAYED, [scene])

@@ -70,12 +70,6 @@ def pillars_of(field: NDArray[Any], scene: Scene) -> list[NDArray[Any]]:
     return [field[y : y + scene.n_p, x : x + scene.n_p] for y, x in scene.pattern.origins]
 
 
-def from_edge(size: int) -> NDArray[np.intp]:
-    """Return the distance of each block of a square from its edge, (size, size)."""
-    from_end = np.minimum(np.arange(size), np.arange(size)[::-1])
-    return np.minimum.outer(from_end, from_end)
-
-
 def core(contact: Mask) -> Mask:
     """Return the contact blocks beside contact blocks alone; the surface's border is no edge."""
     from scipy.ndimage import binary_erosion  # slow to import

@@ -11,16 +11,9 @@ from springblock.analysis.estimate import UNKNOWN
 from springblock.io.records import Record, by_scene
 from springblock.io.rows import Row, scene_of
 from springblock.io.schemas import column, numbers, texts
+from springblock.model.scene import Scene
 from springblock.study.claims import STATEMENTS
-from springblock.study.claims.rule import (
-    ENOUGH,
-    Case,
-    Evidence,
-    Finding,
-    RowsByScene,
-    Statement,
-    verdict,
-)
+from springblock.study.claims.rule import ENOUGH, Case, Evidence, Finding, Statement, verdict
 
 _TYPES = {int: pa.int32(), str: pa.string(), float: pa.float64()}
 #: Columns that tell the cases of a statement apart, null where they do not.
@@ -81,25 +74,23 @@ def _measured(finding: Finding, together: int) -> Row:
     return row | {"realisations": estimate.n, "outcome": finding.outcome(together)}
 
 
-def judged(records: Iterable[Record], **tables: Iterable[Row]) -> list[Row]:
-    """Return the rows of all statements, from realisations and the rows of tables, by name."""
-    return rows(STATEMENTS, gathered(records, **tables))
+def judged(
+    records: Iterable[Record],
+    correlation: Iterable[Row] = (),
+    correlation_length: Iterable[Row] = (),
+    work_precision: Iterable[Row] = (),
+) -> list[Row]:
+    """Return the rows of all statements, from realisations and the rows of tables, by name.
 
-
-def gathered(records: Iterable[Record], **tables: Iterable[Row]) -> Evidence:
-    """Return the evidence of realisations and of rows of tables, by their names in `Evidence`.
-
-    Scenes with too few realisations are left out.
+    Scenes with too few realisations are left out, and in tables those with other constants.
     """
     found = by_scene(records)
     usual = next(iter(found)).constants if found else {}
     tested = {scene: runs for scene, runs in found.items() if len(runs) >= ENOUGH}
-    by_name: dict[str, RowsByScene] = {}
-    for name in ("correlation", "correlation_length"):
-        rows_of = by_scene(tables.get(name, ()), scene_of)
-        by_name[name] = {
-            scene: rows
-            for scene, rows in rows_of.items()
-            if scene in tested and scene.constants == usual
-        }
-    return Evidence(tested, **by_name, precision=list(tables.get("work_precision", ())))
+
+    def of_tested(table: Iterable[Row]) -> dict[Scene, list[Row]]:
+        scenes = by_scene(table, scene_of)
+        return {s: scenes[s] for s in scenes if s in tested and s.constants == usual}
+
+    correlations = of_tested(correlation), of_tested(correlation_length)
+    return rows(STATEMENTS, Evidence(tested, *correlations, precision=list(work_precision)))

@@ -20,7 +20,6 @@ from springblock.study.mechanism.surfaces import PARTS
 from springblock.theory.elasticity import Layer
 
 _SHOWN = (3, 6, 10, 20)  #: n_p of the pillars whose stress is mapped
-_COLORS = "cividis"
 #: Colours and markers of the models, in their order.
 _LOOKS = {
     "independent": (BLUE, "s"),
@@ -100,7 +99,7 @@ def _draw_stress(panels: Sequence[Axes]) -> None:
     stresses = {n_p: _pillar_stress(n_p) for n_p in _SHOWN}
     limits = min(map(np.min, stresses.values())), max(map(np.max, stresses.values()))
     for ax, (n_p, stress) in zip(panels, stresses.items(), strict=True):
-        image = draw_map(ax, stress, "_p/l", cmap=_COLORS, vmin=limits[0], vmax=limits[1])
+        image = draw_map(ax, stress, "_p/l", cmap="cividis", vmin=limits[0], vmax=limits[1])
         ax.set_title(f"$n_p$ = {n_p}", loc="right")
     color_bar(panels[-1], image, "stress over its mean")
 

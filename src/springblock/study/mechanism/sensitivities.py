@@ -88,12 +88,10 @@ def setting(scene: Scene) -> Setting:
 
 def sensitivities(records: Iterable[Record]) -> Iterator[Row]:
     """Yield a row for each setting and quantity."""
-    ensembles: dict[Scene, list[Record]] = {}
-    for record in records:
-        ensembles.setdefault(record.scene, []).append(record)
     by_setting: dict[Setting, dict[Scene, list[Record]]] = {}
-    for scene, runs in ensembles.items():
-        by_setting.setdefault(setting(scene), {})[scene] = runs
+    for record in records:
+        ensembles = by_setting.setdefault(setting(record.scene), {})
+        ensembles.setdefault(record.scene, []).append(record)
     for each, surfaces in by_setting.items():
         seeds = min(map(len, surfaces.values()))
         for quantity, interval in _quantities(surfaces):

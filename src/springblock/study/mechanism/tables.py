@@ -13,11 +13,9 @@ from springblock.io.rows import Row, limits
 from springblock.io.schemas import SCENE, column, numbers, texts
 from springblock.model.numbers import Array
 from springblock.model.scene import Scene
-from springblock.model.surface import Surface
 from springblock.simulation.peaks import prominence
-from springblock.simulation.prelude import compute_prelude
-from springblock.simulation.scenes import setup_of
-from springblock.simulation.simulate import simulate
+from springblock.simulation.run import Realisation
+from springblock.simulation.scenes import prelude_of, realise, surface_of
 from springblock.study.mechanism import models
 from springblock.study.mechanism.surfaces import PARTS
 from springblock.theory.elasticity import Layer
@@ -66,23 +64,27 @@ GROOVES = pa.schema(
 
 def measure_grooves(part: str) -> Iterator[Row]:
     """Yield one row per model for sliding along grooves."""
-    (surface,) = PARTS[part]
-    setup, contact = setup_of(surface), surface.contact
-    layer, normal_force = Layer(contact, setup.material), setup.material.block_load * contact.size
-    load = normal_force / np.count_nonzero(contact)
+    (scene,) = PARTS[part]
+    layer = Layer(scene.contact, scene.material)
+    normal_force = scene.material.block_load * scene.contact.size
     curves: dict[str, list[models.Curve]] = {name: [] for name in ON_GROOVES}
-    for seed in tqdm(range(SEEDS), desc=str(surface), unit="seed"):
-        drawn = Surface.draw(contact, seed, setup.material)
-        forces = [load * mu[contact] for mu in (drawn.mu_static, drawn.mu_dynamic)]
-        run = simulate(drawn, setup, surface.direction)
-        slider = setup.material.slider_velocity * run.time
-        curves["simulation"].append(models.Curve(slider, run.force))
+    for run, forces in _realisations(scene):
+        curves["simulation"].append(models.Curve(scene.slider_velocity * run.time, run.force))
         for name in ON_GROOVES[:-1]:
             curves[name].append(getattr(models, name)(layer, *forces))
     for name, found in curves.items():
         friction = mean_interval([curve.force.max() / normal_force for curve in found])
         peaks = bootstrap_interval(partial(_dips, _on_a_grid(found)), SEEDS)
         yield {"model": name} | limits("static_friction", friction) | limits("prominence", peaks)
+
+
+def _realisations(scene: Scene) -> Iterator[tuple[Realisation, list[Array]]]:
+    """Yield the simulation with each seed, and mu_s F_n and mu_d F_n of its blocks, (k,) N."""
+    contact, prelude = scene.contact, prelude_of(scene)
+    load = scene.material.block_load * contact.size / np.count_nonzero(contact)
+    for seed in tqdm(range(SEEDS), desc=str(scene), unit="seed"):
+        run, drawn = realise(scene, seed, prelude=prelude), surface_of(scene, seed)
+        yield run, [load * mu[contact] for mu in (drawn.mu_static, drawn.mu_dynamic)]
 
 
 def _on_a_grid(curves: list[models.Curve]) -> Array:
@@ -102,28 +104,15 @@ def _dips(forces: Array, weights: Array) -> Array:
 
 
 def measure(part: str) -> Iterator[Row]:
-    """Yield the rows of a part as they are computed."""
-    for surface in PARTS[part]:
-        yield from friction_rows(surface)
-
-
-def friction_rows(surface: Scene) -> Iterator[Row]:
-    """Yield one row per seed, with all models on the same coefficients."""
-    setup, contact = setup_of(surface), surface.contact
-    layer, normal_force = Layer(contact, setup.material), setup.material.block_load * contact.size
-    load = normal_force / np.count_nonzero(contact)
-    constants = identity(surface)
-    constants["stress_variation"] = models.stress_variation(layer)
-    prelude = compute_prelude(contact, setup, surface.direction)
-    for seed in tqdm(range(SEEDS), desc=str(surface), unit="seed"):
-        drawn = Surface.draw(contact, seed, setup.material)
-        run = simulate(drawn, setup, surface.direction, prelude=prelude)
-        forces = [load * mu[contact] for mu in (drawn.mu_static, drawn.mu_dynamic)]
-        yield constants | {
-            "seed": seed,
-            "simulation": run.static_friction,
-            **{
+    """Yield one row per surface of a part and seed, with all models on the same coefficients."""
+    for scene in PARTS[part]:
+        layer = Layer(scene.contact, scene.material)
+        normal_force = scene.material.block_load * scene.contact.size
+        constants = identity(scene) | {"stress_variation": models.stress_variation(layer)}
+        for seed, (run, forces) in enumerate(_realisations(scene)):
+            friction = {
                 name: model(layer, *forces).force.max() / normal_force
                 for name, model in models.MODELS.items()
-            },
-        }
+            }
+            friction["simulation"] = run.static_friction
+            yield constants | {"seed": seed} | friction

@@ -23,6 +23,7 @@ class Outcome:
 
     outcome: str
     energy_error: float = math.nan
+    quantity: str = "none"  #: name of the value
     value: float = math.nan
     closed_form: float = math.nan
     tolerance: float = math.nan
@@ -41,7 +42,6 @@ class Case:
     integrator: str
     extreme: str
     parameter: float  #: what varies within the family
-    quantity: str  #: name of `Outcome.value`
     attempt: Callable[[str], Outcome]  #: takes the integrator
     expected: str = "agrees"
 
@@ -107,14 +107,14 @@ class Pull:
         return bool(abs(run.energy.relative_residual) <= bound)
 
     def judge(
-        self, run: Realisation, value: float, closed_form: float, tolerance: float
+        self, run: Realisation, quantity: str, value: float, closed_form: float, tolerance: float
     ) -> Outcome:
         """Compare a value, within a relative tolerance, and judge the energy balance."""
         residual, error = run.energy.relative_residual, value / closed_form - 1.0
         word = "agrees" if self.keeps_energy(run) else f"energy is off by {residual:.2g}"
         if not abs(error) <= tolerance:
             word = f"is off by {error:.2g}"
-        return Outcome(word, residual, float(value), float(closed_form), float(tolerance))
+        return Outcome(word, residual, quantity, float(value), float(closed_form), float(tolerance))
 
     def ends_in_error(self, surface: Surface, count: int) -> Outcome:
         """Take `count` steps, one of which must raise an error that names its time."""

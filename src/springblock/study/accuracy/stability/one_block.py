@@ -32,7 +32,6 @@ DROP = ROUGH[0] - ROUGH[1]
 H = 0.02  #: step, unless a shorter one is needed
 LONGEST = 50.0  #: of a slip
 MILLION = 1_000_000  #: steps
-FORCE = "spring force, F_n"
 
 
 def slip(
@@ -104,7 +103,8 @@ def spring_force(
     slid = material.slider_velocity * run.time[-1]
     force = float(slid - run.displacement[0, 0, 0]) * material.k_s / material.block_load
     closed_form = pull.speed * count * pull.h - float(path(count * pull.h - release))
-    return pull.judge(run, force, closed_form, slope * pull.h / abs(closed_form))
+    tolerance = slope * pull.h / abs(closed_form)
+    return pull.judge(run, "spring force, F_n", force, closed_form, tolerance)
 
 
 def frictions(integrator: str) -> Iterator[Case]:
@@ -116,28 +116,27 @@ def frictions(integrator: str) -> Iterator[Case]:
         if gamma > 100.0 and share > 1.0:  # damping is not exact, and limits the step
             name = f"pillars with gamma = {gamma:g} omega at leapfrog's limit"
             attempt = partial(beyond_the_limit, material=material, share=share)
-            yield case(name, gamma, "none", attempt, "refused")
+            yield case(name, gamma, attempt, "refused")
         else:
             slow = max(1.0, gamma)  # time during which the force falls
             steepest = max(abs(DROP - gamma * SPEED) / slow, SPEED)
             compared = partial(spring_force, h=1e-3 * slow, after=slow, slope=2.0 * steepest)
             attempt = partial(compared, material=material)
-            yield case(f"block with gamma = {gamma:g} omega", gamma, FORCE, attempt)
+            yield case(f"block with gamma = {gamma:g} omega", gamma, attempt)
     case = partial(Case, "speed", integrator)
     for speed in (1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0):
-        name = f"block at v = {speed:g} F_n omega/K_s"
         material, h = pulled_at(speed, UNDAMPED), min(H, 2e-3 / speed)
-        yield case(name, speed, FORCE, partial(spring_force, material=material, h=h))
+        attempt = partial(spring_force, material=material, h=h)
+        yield case(f"block at v = {speed:g} F_n omega/K_s", speed, attempt)
     case = partial(Case, "coefficients", integrator)
     for ratio, material in (
         (0.0, with_damping(0.1, 1e-3)),  # without damping the force would swing to -mu_s
         *((ratio, pulled_at(SPEED, UNDAMPED)) for ratio in (0.3, 0.6, 0.99)),
     ):
-        name = f"block with mu_d = {ratio:g} mu_s"
         attempt = partial(spring_force, material=material, mu_dynamic=ratio)
-        yield case(name, ratio, FORCE, attempt)
+        yield case(f"block with mu_d = {ratio:g} mu_s", ratio, attempt)
     name = "sticking and slipping for a million steps"
-    yield case(name, ROUGH[1] / ROUGH[0], "mean force, F_n", stick_slip_forever)
+    yield case(name, ROUGH[1] / ROUGH[0], stick_slip_forever)
     # Without a drop the velocity is v (1 - cos t); the block may start one step late.
     speed = 0.1
     material = pulled_at(speed, UNDAMPED)
@@ -146,7 +145,7 @@ def frictions(integrator: str) -> Iterator[Case]:
         name = f"block with mu_s = {mu_static:g}, mu_d = {mu_dynamic:g}"
         ratio = mu_dynamic / mu_static if mu_static else math.inf
         attempt = partial(compared, mu_static=mu_static, mu_dynamic=mu_dynamic)
-        yield case(name, ratio, FORCE, attempt)
+        yield case(name, ratio, attempt)
 
 
 def with_damping(gamma: float, speed: float) -> Material:
@@ -168,7 +167,7 @@ def weakenings(integrator: str) -> Iterator[Case]:
             growth = math.sqrt(rate)
             late = math.asinh(DROP * growth / SPEED) / growth if rate == 1e4 else 0.0
             attempt = partial(spring_force, material=weakening(law, rate), late=late)
-            yield case(name, rate, FORCE, attempt)
+            yield case(name, rate, attempt)
 
 
 def weakening(law: str, rate: float) -> Material:
@@ -187,4 +186,5 @@ def stick_slip_forever(integrator: str) -> Outcome:
     pull = Pull(integrator, material, H / material.omega_min)
     run = pull.simulate(Surface([[True]], *ROUGH), MILLION, every=20)
     cycles = SPEED * MILLION * pull.h / (2.0 * DROP)
-    return pull.judge(run, run.force.mean() / run.normal_force, ROUGH[1], 1.0 / cycles)
+    mean = run.force.mean() / run.normal_force
+    return pull.judge(run, "mean force, F_n", mean, ROUGH[1], 1.0 / cycles)

@@ -21,8 +21,6 @@ OVERDAMPED = Material(gamma=10.0 * PAPER.omega_max, slider_velocity=5e-3)
 HEAVY = pulled_at(1e-3, replace(PAPER, pressure=10.0 * PAPER.pressure))
 #: Blocks of the row in which a rupture front runs, and those of its weak end.
 ROW, WEAK = 200, 10
-FIRST = "first detachment, F_n/(K_s v)"
-DISPLACEMENT = "displacement, l"
 #: Displacement of the free column by the reference solution (`benchmarks/reference.py`), l, for
 #: K_s/K_int and the strain.
 COLUMNS = {
@@ -49,14 +47,12 @@ def steps(integrator: str) -> Iterator[Case]:
     case = partial(Case, "step", integrator)
     stable = [("pillars", PAPER, share) for share in (0.05, 0.1, 0.2, 0.5, 0.8, 0.9, 0.95, 0.99)]
     for name, material, share in (*stable, ("strained pillars", HEAVY, 0.99)):
-        extreme = f"{name} at {share:.0%} of the limit"
         attempt = partial(near_the_limit, material=material, share=share)
-        yield case(extreme, share, "static friction", attempt, "stable")
+        yield case(f"{name} at {share:.0%} of the limit", share, attempt, "stable")
     unstable = [("pillars", PAPER, share) for share in (1.001, 1.01, 1.5, 10.0)]
     for name, material, share in (*unstable, ("overdamped pillars", OVERDAMPED, 1.01)):
-        extreme = f"{name} at {share:g} times the limit"
         attempt = partial(beyond_the_limit, material=material, share=share)
-        yield case(extreme, share, "none", attempt, "refused")
+        yield case(f"{name} at {share:g} times the limit", share, attempt, "refused")
 
 
 def near_the_limit(integrator: str, material: Material, share: float) -> Outcome:
@@ -64,7 +60,7 @@ def near_the_limit(integrator: str, material: Material, share: float) -> Outcome
     pull = Pull.at(share, integrator, material)
     run = pull.simulate(PILLARS, every=max(1, round(2e-7 / pull.step)))
     word = "stable" if pull.keeps_energy(run) else "drifts"
-    return Outcome(word, run.energy.relative_residual, run.static_friction)
+    return Outcome(word, run.energy.relative_residual, "static friction", run.static_friction)
 
 
 def beyond_the_limit(integrator: str, material: Material, share: float) -> Outcome:
@@ -80,20 +76,19 @@ def stiffnesses(integrator: str) -> Iterator[Case]:
     """Yield cases of stiffness, strain and scatter."""
     case = partial(Case, "stiffness", integrator)
     for ratio in (1e-4, 1e-2, 1.0, 1e2, 1e4):
-        name = f"column at K_s/K_int = {ratio:g}"
-        yield case(name, ratio, DISPLACEMENT, partial(column, ratio=ratio, strain=1e-9))
-        name, gamma = f"surface at K_s/K_int = {ratio:g}", PAPER.gamma / PAPER.omega_min
-        material = layer(ratio, 1e-3)
+        attempt = partial(column, ratio=ratio, strain=1e-9)
+        yield case(f"column at K_s/K_int = {ratio:g}", ratio, attempt)
+        material, gamma = layer(ratio, 1e-3), PAPER.gamma / PAPER.omega_min
         material = pulled_at(0.01, replace(material, gamma=gamma * material.omega_min))
-        yield case(name, ratio, FIRST, partial(first_detachment, material=material))
+        attempt = partial(first_detachment, material=material)
+        yield case(f"surface at K_s/K_int = {ratio:g}", ratio, attempt)
     case = partial(Case, "strain", integrator)
     for strain in (1e-1, 1e-2, 1e-3, 1e-5, 1e-7, 1e-9):
-        name, attempt = f"column at a strain of {strain:g}", partial(column, strain=strain)
-        yield case(name, strain, DISPLACEMENT, attempt)
+        yield case(f"column at a strain of {strain:g}", strain, partial(column, strain=strain))
     case = partial(Case, "scatter", integrator)
     for sigma in (0.0, 0.05, 0.1, 0.25, 0.5):
-        name = f"surface with sigma = {sigma:g}"
-        yield case(name, sigma, FIRST, partial(first_detachment, material=scattered(sigma)))
+        attempt = partial(first_detachment, material=scattered(sigma))
+        yield case(f"surface with sigma = {sigma:g}", sigma, attempt)
 
 
 def loads(integrator: str) -> Iterator[Case]:
@@ -101,18 +96,17 @@ def loads(integrator: str) -> Iterator[Case]:
     case = partial(Case, "load", integrator)
     for strain in (0.02, 0.3, 0.6, -0.1, -0.3):
         name = f"column {'stretched' if strain > 0 else 'squeezed'} by {abs(strain):g}"
-        yield case(name, abs(strain), DISPLACEMENT, partial(column, strain=strain))
+        yield case(name, abs(strain), partial(column, strain=strain))
     for strain, what in ((2.0, "stretched until it bursts"), (-1.0, "squeezed until it collapses")):
-        attempt = partial(broken_column, strain=strain)
-        yield case(f"column {what}", abs(strain), "none", attempt, "raises")
+        yield case(f"column {what}", abs(strain), partial(broken_column, strain=strain), "raises")
 
 
 def fronts(integrator: str) -> Iterator[Case]:
     """Yield rupture fronts in a chain, by the prestress."""
     case = partial(Case, "rupture front", integrator)
     for prestress in (0.5, 0.7, 0.9):
-        name, attempt = f"prestress {prestress:g}", partial(rupture_front, prestress=prestress)
-        yield case(name, prestress, "speed of a rupture front, l sqrt(K_int/m)", attempt)
+        attempt = partial(rupture_front, prestress=prestress)
+        yield case(f"prestress {prestress:g}", prestress, attempt)
 
 
 def rupture_front(integrator: str, prestress: float) -> Outcome:
@@ -133,7 +127,8 @@ def rupture_front(integrator: str, prestress: float) -> Outcome:
     speed = (ROW - 1 - ROW // 2) / (last - half) * math.sqrt(material.mass / material.k_int)
     tau_0 = pull.speed * material.omega_min * (half + last) / 2.0
     tau = (tau_0 - mu_d) / (mu_s - mu_d)
-    return pull.judge(run, speed, 1.0 / math.sqrt(1.0 - tau**2), 3e-3)
+    name = "speed of a rupture front, l sqrt(K_int/m)"
+    return pull.judge(run, name, speed, 1.0 / math.sqrt(1.0 - tau**2), 3e-3)
 
 
 def layer(ratio: float, strain: float) -> Material:
@@ -173,7 +168,7 @@ def column(integrator: str, strain: float, ratio: float = 1.0) -> Outcome:
     run = pull.simulate(surface, count)
     value = float(run.displacement[0, ~surface.contact][0]) / material.spacing
     tolerance = (material.omega_max * pull.step) ** INTEGRATORS[integrator].order
-    return pull.judge(run, value, COLUMNS[ratio, strain], tolerance)
+    return pull.judge(run, "displacement, l", value, COLUMNS[ratio, strain], tolerance)
 
 
 def broken_column(integrator: str, strain: float) -> Outcome:
@@ -191,7 +186,7 @@ def first_detachment(
     surface = Surface.draw(Pattern.flat(n).contact, SEED, material)
     run, weakest = pull.simulate(surface, count), np.maximum(surface.mu_static, surface.mu_dynamic)
     first = run.t_first * material.omega_min * pull.speed
-    return pull.judge(run, first, weakest.min(), 1e-12)
+    return pull.judge(run, "first detachment, F_n/(K_s v)", first, weakest.min(), 1e-12)
 
 
 def sizes(integrator: str) -> Iterator[Case]:
@@ -200,7 +195,7 @@ def sizes(integrator: str) -> Iterator[Case]:
     for n, speed, count in ((1, 0.01, None), (2, 0.01, None), (3, 0.01, None), (1000, 0.1, 60)):
         material = scattered(0.1, speed)
         attempt = partial(first_detachment, material=material, n=n, count=count)
-        yield case(f"{n} x {n} blocks", n, FIRST, attempt)
+        yield case(f"{n} x {n} blocks", n, attempt)
 
 
 def overflows(integrator: str) -> Iterator[Case]:
@@ -211,7 +206,7 @@ def overflows(integrator: str) -> Iterator[Case]:
         ("largest speed", 1, 1e308),
         ("speed that tears the springs", 3, 1e160),
     ):
-        yield case(name, speed, "none", partial(too_fast, n=n, speed=speed), "raises")
+        yield case(name, speed, partial(too_fast, n=n, speed=speed), "raises")
 
 
 def too_fast(integrator: str, n: int, speed: float) -> Outcome:
