@@ -1,6 +1,6 @@
 """Curves over time, and means of ensembles with intervals over a varied parameter."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -24,8 +24,6 @@ REST: Look = {"linestyle": (0, (1.0, 0.9))}  #: of a mean force once some runs h
 _BIN = 2e-6  #: s, width of the bins of detachments
 _PERCENTILES = (5.0, 95.0)  #: of an ensemble
 _MEAN: Look = {"color": GREY, "linewidth": 0.8, "linestyle": (0, (4, 2))}  #: of that ensemble
-
-Samples = dict[Any, Array]  #: a number of each of k realisations, (k,), by ensemble
 
 #: Bars over intervals.
 BAR: Look = {"elinewidth": 0.8, "capsize": 1.8, "capthick": 0.8, "linewidth": 0.7}
@@ -51,17 +49,13 @@ def draw_mean_force(
     The band is its interval or, with `spread`, the percentiles of the runs until the first ends.
     """
     force = statistics.mean_of_rest(curve.friction)
-    time, whole = MICRO * curve.time, _length_of_all(curve)
+    time = MICRO * curve.time
+    whole = int(np.isfinite(curve.friction).all(axis=0).sum())  # samples that all runs have
     ax.plot(time[:whole], force.mean[:whole], color=color, label=label, markevery=[], **look)
     ax.plot(time[whole - 1 :], force.mean[whole - 1 :], color=color, **REST)
     band = np.percentile(curve.friction, _PERCENTILES, axis=0) if spread else force[1:]
     ax.fill_between(time, *band, color=color, alpha=BAND, linewidth=0.0)
     return force.mean
-
-
-def _length_of_all(curve: LoadCurves) -> int:
-    """Return the number of samples that all runs have."""
-    return int(np.isfinite(curve.friction).all(axis=0).sum())
 
 
 def draw_single_forces(ax: Axes, curve: LoadCurves, color: Any) -> None:
@@ -90,10 +84,9 @@ def draw_load_peaks(force: Axes, blocks: Axes, runs: Sequence[Run], color: Any) 
     triangle: Look = {"textcoords": "offset points", "ha": "center", "va": "bottom"}
     for peak in (both.first, both.second) if both else (int(mean.argmax()),):
         force.annotate("▼", (time[peak], mean[peak]), (0.0, 2.0), color=color, **triangle)
-    for ax in (force, blocks):
-        if both:
-            ends = time[both.first], time[both.second]
-            ax.axvspan(*ends, color=color, alpha=0.08, linewidth=0.0)
+    if both:
+        for ax in (force, blocks):
+            ax.axvspan(time[both.first], time[both.second], color=color, alpha=0.08, linewidth=0.0)
 
 
 def draw_run(force: Axes, blocks: Axes, run: Run, others: Sequence[Run], span: Span) -> None:
@@ -160,17 +153,6 @@ def draw_points(ax: Axes, places: ArrayLike, intervals: ArrayLike, color: Any, *
     mean, low, high = np.asarray(intervals, dtype=float).T
     bars = np.nan_to_num(np.array([mean - low, high - mean]).clip(0.0))
     ax.errorbar(places, mean, bars, color=color, **(BAR | look))
-
-
-def draw_means(ax: Axes, samples: Mapping[Any, ArrayLike], color: Any, **look: Any) -> None:
-    """Draw the mean of each sample at its place with a bar over its 95 % interval."""
-    intervals = [statistics.mean_interval(sample) for sample in samples.values()]
-    draw_points(ax, list(samples), intervals, color, **look)
-
-
-def draw_realisations(ax: Axes, place: float, sample: Array, color: Any) -> None:
-    """Draw each realisation of a sample as a dot, since these may form two clusters."""
-    ax.plot(np.full(len(sample), place), sample, color=color, **DOT)
 
 
 def name_places(ax: Axes, places: ArrayLike, scale: str = "log") -> None:

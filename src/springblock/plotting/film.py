@@ -61,8 +61,7 @@ def frames(run: Run, times: ArrayLike | None = None) -> list[Frame]:
 
 def moments(run: Run) -> Array:
     """Return the times of the frames in s, (FRAMES,): evenly spaced, then held at the end."""
-    start, stop = span(run)
-    return np.append(np.linspace(start, stop, FRAMES - _HOLD), np.full(_HOLD, stop))
+    return np.pad(np.linspace(*span(run), FRAMES - _HOLD), (0, _HOLD), mode="edge")
 
 
 def span(run: Run) -> tuple[float, float]:

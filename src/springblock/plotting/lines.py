@@ -7,7 +7,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from springblock.io.rows import Row, scene_of
 from springblock.model.direction import degrees
@@ -62,25 +62,24 @@ def lines(rows: Iterable[Row], over: str) -> "DataFrame":
         import seaborn  # noqa: F401
     except ModuleNotFoundError:
         raise ModuleNotFoundError("sweeps are drawn by seaborn: pip install seaborn") from None
-    every_scene = [(scene_of(row), row) for row in rows]
-    valued = [(scene, row, _value(scene, row, over)) for scene, row in every_scene]
-    scenes = [(scene, row, value) for scene, row, value in valued if value is not None]
-    if not scenes:
-        varying = ", ".join([*axes(scene for scene, _ in every_scene)[:3], SHARE])
+    runs = list(rows)
+    scenes = [scene_of(row) for row in runs]
+    told: dict[str, Any] = {
+        "value": [_value(scene, row, over) for scene, row in zip(scenes, runs, strict=True)],
+        "line": [_others(scene, over) for scene in scenes],
+        "surface": [_others(scene, "") for scene in scenes],
+    }
+    every = pd.DataFrame(runs).assign(**told).dropna(subset="value")
+    if every.empty:
+        varying = ", ".join([*axes(scenes)[:3], SHARE])
         raise ValueError(f"unknown axis {over!r}; choose for instance {varying}")
-    ticks = _ticks({value for _, _, value in scenes}) if over in NAMED else {}
-    order = [*ticks]
-    placed = [
-        {
-            "place": order.index(value) if ticks else _place(value),
-            "tick": ticks.get(value, ""),
-            "line": _others(s, over),
-        }
-        for s, _, value in scenes
-    ]
-    every = pd.DataFrame([row | more for (_, row, _), more in zip(scenes, placed, strict=True)])
-    if over == SHARE:
-        _refuse_equal(zip([s for s, *_ in scenes], every["line"], every["place"], strict=True))
+    ticks = _ticks(every["value"]) if over in NAMED else {}
+    every["tick"] = every["value"].map(ticks) if ticks else ""
+    every["place"] = every["value"].map([*ticks].index if ticks else _place)
+    mixed = every[every.groupby(["line", "place"])["surface"].transform("nunique") > 1]
+    if over == SHARE and len(mixed):
+        place = mixed["place"].iloc[0]
+        raise ValueError(f"{SHARE} = {place:.4g} in different surfaces; choose another axis")
     if every["place"].nunique() < 2:
         raise ValueError(f"{over} has the same value in all realisations; choose another axis")
     several = every.groupby("line")["place"].transform("nunique") > 1
@@ -90,14 +89,6 @@ def lines(rows: Iterable[Row], over: str) -> "DataFrame":
     ordered = sorted({*found["line"]}, key=lambda names: [_by_size(*each) for each in names])
     titles = dict(zip(ordered, _named(ordered, units_of(every["law"])), strict=True))
     return found.assign(line=pd.Categorical(found["line"].map(titles), [*titles.values()]))
-
-
-def _refuse_equal(placed: Iterable[tuple[Scene, Names, float]]) -> None:
-    """Refuse different surfaces with the same share of blocks in contact on one line."""
-    first: dict[tuple[Names, float], Names] = {}
-    for scene, line, place in placed:
-        if first.setdefault((line, place), own := _others(scene, "")) != own:
-            raise ValueError(f"{SHARE} = {place:.4g} in different surfaces; choose another axis")
 
 
 def units_of(laws: Iterable[str]) -> dict[str, str]:
@@ -112,19 +103,18 @@ def units_of(laws: Iterable[str]) -> dict[str, str]:
 def _named(every: list[Names], units: Mapping[str, str]) -> list[str]:
     """Name each line by its surface and by what is not the same in all of them."""
     common = set.intersection(*map(set, every))
-    masks = {mask for names in every if (mask := dict(names).get("mask"))}
-    stems = Counter(_DIGEST.sub("", mask) for mask in masks)
+    surfaces = _without_digests(mask for names in every if (mask := dict(names).get("mask")))
     found = []
     for names in map(dict, every):
         hidden = {"level"}
         surface = "flat" if names.get("level") == "0" and ("level", "0") not in common else ""
         if mask := names.get("mask"):
             hidden |= {"mask", "N", "n_rows"}
-            stem = _DIGEST.sub("", mask)
-            surface = stem if stems[stem] == 1 else mask
-        own = dict(names.items() - common)
-        shown = [name for name in names if name in own.keys() - hidden]
-        told = [f"{in_math(name)} = {own[name]} {units.get(name, '')}".rstrip() for name in shown]
+            surface = surfaces[mask]
+        shown = [pair for pair in names.items() if pair not in common and pair[0] not in hidden]
+        told = [
+            f"{in_math(name)} = {value} {units.get(name, '')}".rstrip() for name, value in shown
+        ]
         told = [re.sub(r"^(direction = [^xy]+)$", r"\1°", each) for each in told]
         found.append(", ".join(filter(None, [surface, *told])) or "as the study")
     return found
@@ -143,16 +133,22 @@ def _value(scene: Scene, row: Row, over: str) -> str | float | None:
     return None if value == "" else value
 
 
-def _ticks(values: set[str | float]) -> dict[str | float, str]:
+def _ticks(values: Iterable[str]) -> dict[str, str]:
     """Return a name for each value of an axis of names, in their order: Coulomb's law first."""
-    words = {value: re.split("[, ]+", value) for value in map(str, values)}
-    every = sorted(
-        words,
-        key=lambda value: (value[:7] != "coulomb", [_by_size("", word) for word in words[value]]),
-    )
-    stems = Counter(_DIGEST.sub("", value) for value in every)
-    short = {value: _DIGEST.sub("", value) for value in every}
-    return {v: (short[v] if stems[short[v]] == 1 else v).replace("_", " ") for v in every}
+
+    def order(value: str) -> tuple[bool, list[tuple[float, str]]]:
+        words = re.split("[, ]+", value)
+        return not value.startswith("coulomb"), [_by_size("", word) for word in words]
+
+    short = _without_digests(sorted({*values}, key=order))
+    return {value: name.replace("_", " ") for value, name in short.items()}
+
+
+def _without_digests(names: Iterable[str]) -> dict[str, str]:
+    """Return masks' names without their digests, unless two would have the same."""
+    short = {name: _DIGEST.sub("", name) for name in names}
+    times = Counter(short.values())
+    return {name: stem if times[stem] == 1 else name for name, stem in short.items()}
 
 
 def _place(value: str | float) -> float:
@@ -162,9 +158,7 @@ def _place(value: str | float) -> float:
 def _by_size(name: str, value: str) -> tuple[float, str]:
     """Return a key that sorts numbers and directions by size and other texts after them."""
     try:
-        if name == "direction":
-            return degrees(value), ""
-        return float(value), ""
+        return (degrees(value) if name == "direction" else float(value)), ""
     except ValueError:
         return math.inf, value
 
@@ -172,27 +166,23 @@ def _by_size(name: str, value: str) -> tuple[float, str]:
 def _others(scene: Scene, over: str) -> Names:
     """Return what else distinguishes a scene; n_s/n_p for n_s where n_p is on the axis."""
     values: Row = {"level": scene.level, **scene.values}
-    for name in ("sample_interval", "duration", "snapshot_times", over):
-        values.pop(name, None)
-    if scene.n_rows == scene.n_blocks:
-        del values["n_rows"]
-    if over == "n_p" and scene.n_p:
-        values["n_s/n_p"] = f"{scene.n_s / scene.n_p:.3g}"
-        del values["n_s"]
-    if over in LAWS.values():  # at zero they are Coulomb's law
-        del values["law"]
     follows = {
         SHARE: _SIZES,
         "mask": _SIZES,
         "texture": _BLOCKS,
         "law": (*OF_LAWS, *constants_of(scene.law)),
+        **dict.fromkeys(LAWS.values(), ("law",)),  # at zero they are Coulomb's law
     }
-    for name in follows.get(over, ()):  # from what is on the axis
-        values.pop(name, None)
+    hidden = {"sample_interval", "duration", "snapshot_times", over, *follows.get(over, ())}
+    if scene.n_rows == scene.n_blocks:
+        hidden.add("n_rows")
+    if over == "n_p" and scene.n_p:
+        values["n_s/n_p"] = f"{scene.n_s / scene.n_p:.3g}"
+        hidden.add("n_s")
     return tuple(
         ("N" if name == "n_blocks" else name, str(value))
         for name, value in values.items()
-        if value not in (0, "", "free") or name not in GEOMETRY
+        if name not in hidden and (value not in (0, "", "free") or name not in GEOMETRY)
     )
 
 

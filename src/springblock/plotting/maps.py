@@ -4,7 +4,6 @@ import math
 from typing import Any, Literal
 
 import numpy as np
-from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colorbar import Colorbar
@@ -76,37 +75,29 @@ def scale(times: Array) -> TwoSlopeNorm:
 
 def _ticks(norm: TwoSlopeNorm) -> list[float]:
     """Return a few round times on each side of 1."""
-    ticks: list[float] = []
-    for low, high in ((float(norm.vmin or 0.0), 1.0), (1.0, float(norm.vmax or 2.0))):
-        found = MaxNLocator(3, steps=[1, 2, 5, 10]).tick_values(low, high)
-        ticks += [tick for tick in found if low <= tick <= high and tick not in ticks]
-    return ticks
+    found = MaxNLocator(3, steps=[1, 2, 5, 10]).tick_values
+    sides = ((float(norm.vmin or 0.0), 1.0), (1.0, float(norm.vmax or 2.0)))
+    return sorted({tick for low, high in sides for tick in found(low, high) if low <= tick <= high})
 
 
 def draw_times(ax: Axes, run: Run, until: float = math.inf) -> AxesImage:
     """Map the blocks of a run that have detached until a time in s, with the colours below."""
     if np.isfinite(run.t_det).any():
-        _draw_times_bar(ax, run)
+        label = r"first detachment $t_\mathrm{det}/t_\mathrm{max}$ (two scales)"
+        norm = scale(run.t_det / run.t_max)
+        look: Look = {"orientation": "horizontal", "ticks": _ticks(norm)}
+        bar = _cut(color_bar(ax, ScalarMappable(norm, BEFORE_AFTER), label, **look))
+        look = {"va": "bottom", "transform": bar.transAxes}
+        bar.text(0.0, 1.15, "precursors", ha="left", **look)
+        bar.text(1.0, 1.15, "after the force peak", ha="right", **look)
     return draw_map(ax, painted(run, until))
-
-
-def _draw_times_bar(ax: Axes, run: Run) -> None:
-    label = r"first detachment $t_\mathrm{det}/t_\mathrm{max}$ (two scales)"
-    norm = scale(run.t_det / run.t_max)
-    look: Look = {"orientation": "horizontal", "ticks": _ticks(norm)}
-    bar = _cut(color_bar(ax, ScalarMappable(norm, BEFORE_AFTER), label, **look))
-    for place, side, name in ((0.0, "left", "precursors"), (1.0, "right", "after the force peak")):
-        bar.text(place, 1.15, name, ha=side, va="bottom", transform=bar.transAxes)
 
 
 def _cut(bar: Colorbar) -> Axes:
     """Cut a bar of two scales where the second one begins, and return its panel."""
-    ends = ([1.0, 1.0], [-0.15, 1.15])
-    ax, is_upright = bar.ax, bar.orientation == "vertical"
-    place = ax.get_yaxis_transform() if is_upright else ax.get_xaxis_transform()
-    look: Look = {"color": "white", "linewidth": 2.0, "clip_on": False, "transform": place}
-    ax.plot(*(ends[::-1] if is_upright else ends), **look, zorder=10.0)
-    return ax
+    line = bar.ax.axhline if bar.orientation == "vertical" else bar.ax.axvline
+    line(1.0, -0.15, 1.15, color="white", linewidth=2.0, clip_on=False, zorder=10.0)
+    return bar.ax
 
 
 def painted(run: Run, until: float = math.inf, since: float = math.inf) -> Array:
@@ -129,14 +120,6 @@ def draw_key(ax: Axes, *names: str) -> None:
     handles = [Patch(color=_KEY[name], label=name) for name in names]
     look: Look = {"columnspacing": 1.0, "handlelength": 1.0, "bbox_to_anchor": (1.0, 1.0)}
     ax.legend(handles=handles, loc="lower right", ncols=3, **look)
-
-
-def sequential(values: Array) -> Look:
-    """Return the look of maps of values from zero on; NaN are blocks without contact."""
-    # The same for all colour vision (Nuñez, Anderton & Renslow 2018,
-    # doi:10.1371/journal.pone.0199239).
-    colours = colormaps["cividis"].with_extremes(bad=NO_CONTACT)
-    return {"cmap": colours, "vmin": 0.0, "vmax": float(np.nanmax(values)) or 1.0}
 
 
 def dimension(

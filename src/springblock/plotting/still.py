@@ -1,24 +1,24 @@
-"""Pictures of one run and of one surface."""
+"""Pictures of one run, of one surface, and of ensembles on surfaces of one's own."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import singledispatch
 from textwrap import fill
 from typing import Any
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
+from springblock.analysis import statistics
 from springblock.analysis.runs import Runs
 from springblock.model.numbers import Array
 from springblock.model.pattern import Pattern
 from springblock.model.surface import Surface
-from springblock.plotting import maps, style
-from springblock.plotting.curves import draw_force, draw_run
-from springblock.plotting.style import COLUMN, DOUBLE, MICRO, MM, color_bar, journal
-from springblock.plotting.surfaces import surfaces
+from springblock.plotting import curves, maps, style
+from springblock.plotting.style import BLACK, COLUMN, DOUBLE, GREY, MICRO, MM, color_bar, journal
 from springblock.simulation.fields import Fields
 from springblock.simulation.run import Run
 
@@ -45,6 +45,11 @@ _WIDTHS = {1: COLUMN, 2: COLUMN, 3: style.ONE_AND_A_HALF, 4: DOUBLE}
 #: What text takes beside the maps, the tallest map, and a letter of the title, mm.
 _TEXT, _TALLEST, _LETTER = 34.0, 90.0, 1.4
 _ENLARGED = 24  #: blocks along a side of the part of a surface that is enlarged
+#: Of values from zero on, the same for all colour vision (Nuñez, Anderton & Renslow 2018,
+#: doi:10.1371/journal.pone.0199239).
+_SEQUENTIAL = colormaps["cividis"].with_extremes(bad=style.NO_CONTACT)
+_OF_SURFACE = 62.0  #: mm, height of the panels of a surface and of its name
+_LINE = 120  #: characters that fit above them
 
 
 @singledispatch
@@ -70,11 +75,11 @@ def plot_run(run: Run) -> Figure:
     panels = parts[0].subplot_mosaic("FM;BM" if detached else "FM", width_ratios=(79, 65))
     span = (0.0, MICRO * float(run.time[-1]))
     if detached:
-        draw_run(panels["F"], panels["B"], run, (), span)
+        curves.draw_run(panels["F"], panels["B"], run, (), span)
         early = 2.0 * run.t_max < run.time[-1]  # room beside the peak
         panels["B"].legend(loc="upper right" if early else "upper left")
     else:
-        draw_force(panels["F"], run, (), span)
+        curves.draw_force(panels["F"], run, (), span)
         panels["F"].set(xlabel="time (µs)", xlim=span)
     maps.draw_times(panels["M"], run)
     others = {"not detached": run.contact & np.isnan(run.t_det), "not in contact": ~run.contact}
@@ -99,8 +104,9 @@ def _draw_maps(
     panels: Sequence[Axes], fields: Array, label: str, times: Iterable[float] = ()
 ) -> None:
     """Map a field, (k, rows, columns), in common colours; `times` (s) stand above in µs."""
+    largest = float(np.nanmax(fields)) or 1.0
     for ax, field in zip(panels, fields, strict=True):
-        image = maps.draw_map(ax, field, **maps.sequential(fields))
+        image = maps.draw_map(ax, field, cmap=_SEQUENTIAL, vmin=0.0, vmax=largest)
         ax.label_outer()
     for ax, time in zip(panels, times, strict=False):
         ax.set_title(f"{MICRO * time:.4g} µs")
@@ -138,6 +144,31 @@ def plot_surface(surface: Pattern | Surface) -> Figure:
 def plot_runs(runs: Runs) -> Figure:
     """Draw mask, mean t_det/t_max and force of several runs of a surface."""
     return surfaces({runs[0].name: runs})
+
+
+def surfaces(ensembles: Mapping[str, Sequence[Run]]) -> Figure:
+    """Draw mask, mean t_det/t_max and force of each surface, by name, a row each.
+
+    A block that has not detached in one of the runs has no mean time.
+    """
+    picture = style.page(DOUBLE, len(ensembles) * _OF_SURFACE)
+    rows = picture.subplots(len(ensembles), 3, squeeze=False)
+    for (contact, times, force), (name, runs) in zip(rows, ensembles.items(), strict=True):
+        maps.draw_contact(contact, runs[0].contact)
+        title = str(getattr(runs[0], "scene", name))
+        contact.set_title(fill(title, _LINE), loc="left", fontsize="medium")
+        mean = np.mean([run.t_det / run.t_max for run in runs], axis=0)
+        if np.isfinite(mean).any():
+            maps.draw_mean_times(times, mean, r"mean $t_\mathrm{det}/t_\mathrm{max}$")
+        else:
+            times.set_axis_off()
+        curve = statistics.whole_curve(runs)
+        curves.draw_single_forces(force, curve, GREY)
+        curves.draw_mean_force(force, curve, BLACK, "mean")
+        latest = MICRO * float(np.mean([run.t_max for run in runs]))
+        force.axvline(latest, color=BLACK, linestyle=":", linewidth=1.0, zorder=0)
+        force.set(xlabel="time (µs)", ylabel=style.FORCE, xlim=(0.0, None), ylim=(0.0, None))
+    return picture
 
 
 @journal

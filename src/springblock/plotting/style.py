@@ -163,14 +163,12 @@ def pillar_looks(sizes: Iterable[int]) -> dict[int, Look]:
     those of their rank.
     """
     every = sorted({*sizes} - {0})
-    looks: dict[int, Look] = {0: {"color": BLACK, "marker": "o"}}
+    colors, markers = shades(every), dict(zip(every, cycle(_MARKERS.values()), strict=False))
     if {*every} <= {*_MARKERS}:
-        places = [np.log(n_p / 2.0) / np.log(_LARGEST / 2.0) for n_p in every]
-        colors, markers = map(_SHADES, places), [_MARKERS[n_p] for n_p in every]
-        own = zip(every, colors, markers, strict=True)
-    else:
-        own = zip(every, shades(every).values(), cycle(_MARKERS.values()), strict=False)
-    return looks | {n_p: {"color": color, "marker": marker} for n_p, color, marker in own}
+        colors = {n_p: _SHADES(np.log(n_p / 2.0) / np.log(_LARGEST / 2.0)) for n_p in every}
+        markers = _MARKERS
+    own: dict[int, Look] = {n_p: {"color": colors[n_p], "marker": markers[n_p]} for n_p in every}
+    return {0: {"color": BLACK, "marker": "o"}} | own
 
 
 def span(values: Iterable[int]) -> str:

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from itertools import cycle, islice
 from string import ascii_lowercase
 from typing import TYPE_CHECKING, Any
@@ -29,17 +29,17 @@ _JOINED = (
     "changes in proportion. "
 )
 
-#: What is drawn of realisations: the label of its axis, and its values there.
-OBSERVABLES: dict[str, tuple[str, Callable[[Any], Any]]] = {
-    "static_friction": (curves.FRICTION, lambda runs: runs["static_friction"]),
-    "dynamic_friction": ("dynamic friction", lambda runs: runs["dynamic_friction"]),
-    "t_max": (r"$t_\mathrm{max}$ (µs)", lambda runs: MICRO * runs["t_max"]),
-    "t_avg": (r"$t_\mathrm{avg}$ (µs)", lambda runs: MICRO * runs["t_avg"]),
-    "t_first": ("first detachment (µs)", lambda runs: MICRO * runs["t_first"]),
-    "prominence": ("prominence (%)", lambda runs: style.PERCENT * runs["prominence"]),
-    "t_quiet": ("between load peaks (µs)", lambda runs: MICRO * runs["t_quiet"]),
-    "t_width": ("width of the peak (µs)", lambda runs: MICRO * runs["t_width"]),
-    "t_max-t_avg": (curves.LAG, lambda runs: MICRO * (runs["t_max"] - runs["t_avg"])),
+#: Labels of axes, and factors of their units, of columns of realisations or their differences.
+OBSERVABLES = {
+    "static_friction": (curves.FRICTION, 1.0),
+    "dynamic_friction": ("dynamic friction", 1.0),
+    "t_max": (r"$t_\mathrm{max}$ (µs)", MICRO),
+    "t_avg": (r"$t_\mathrm{avg}$ (µs)", MICRO),
+    "t_first": ("first detachment (µs)", MICRO),
+    "prominence": ("prominence (%)", style.PERCENT),
+    "t_quiet": ("between load peaks (µs)", MICRO),
+    "t_width": ("width of the peak (µs)", MICRO),
+    "t_max-t_avg": (curves.LAG, MICRO),
 }
 
 _COLORS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, style.BLACK, style.GREY)
@@ -77,10 +77,12 @@ def draw(found: "DataFrame", over: str, observables: Sequence[str]) -> Figure:
     look |= {"linewidth": 0.0 if ticks else 0.7, "markersize": 4.0, "markeredgewidth": 0.0}
     for name, values in (("palette", _COLORS), ("markers", _MARKERS)):
         look[name] = list(islice(cycle(values), len(names)))
-    for ax, (label, of) in zip(panels, map(OBSERVABLES.__getitem__, observables), strict=True):
+    for ax, name in zip(panels, observables, strict=True):
+        label, factor = OBSERVABLES[name]
+        observed: Any = found.eval(name)
         if label == curves.LAG:
             ax.axhline(0.0, **curves.ZERO)
-        lineplot(found.assign(**{label: of(found)}), x=axis, y=label, **look, ax=ax)
+        lineplot(found.assign(**{label: factor * observed}), x=axis, y=label, **look, ax=ax)
         ax.legend().remove()
         if ticks:
             curves.name_categories(ax, ticks)

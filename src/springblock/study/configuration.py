@@ -175,15 +175,16 @@ def _check_for_figures(scene: Scene, seeds: int, group: str) -> None:
         )
     if scene.level != _LEVELS.get(group, scene.level):
         raise ValueError(f"scenes must be of level {_LEVELS[group]}, not {scene.level}")
-    # Without scatter one realisation suffices, and no figure needs its c(r).
     scatters = scene.mu_static_std > 0.0 or scene.mu_dynamic_std > 0.0
-    is_single = group not in _LEVELS and seeds == 1 and not scatters
-    if scene.sides and not (scatters or is_single):
+    # Without scatter one realisation suffices, and no figure needs its c(r).
+    if not scene.sides or (group not in _LEVELS and seeds == 1 and not scatters):
+        return
+    if not scatters:
         raise ValueError(
             "without scatter c(r) is not defined; give one seed, in a group of another name, or "
             "scatter"
         )
-    if scene.sides and seeds < _CORRELATED and not is_single:
+    if seeds < _CORRELATED:
         raise ValueError(
             f"seeds must be at least {_CORRELATED}, for correlations on pillars of {scene.n_p} "
             f"blocks, not {seeds}"

@@ -30,10 +30,8 @@ class Guard(Extension):
     def parse(self, parser: Parser) -> nodes.Node:
         """Read a condition and the text up to `endguard`."""
         line = next(parser.stream).lineno
-        condition, text = (
-            parser.parse_expression(),
-            parser.parse_statements(("name:endguard",), drop_needle=True),
-        )
+        condition = parser.parse_expression()
+        text = parser.parse_statements(("name:endguard",), drop_needle=True)
         where = nodes.Const(f"{parser.name}, line {line}")
         call = self.call_method("kept", [condition, where], lineno=line)
         return nodes.CallBlock(call, [], [], text, lineno=line)

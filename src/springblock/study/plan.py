@@ -1,6 +1,7 @@
 """What the configuration of a study asks for: scenes, files, jobs and figures."""
 
 import fnmatch
+import sys
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from itertools import chain, pairwise
@@ -8,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from springblock.io.identity import name_of
+from springblock.io.parquet import load, origin_of
 from springblock.model.blockmap import Cut
 from springblock.model.scene import Scene
 from springblock.plotting.lines import axes
@@ -26,7 +28,6 @@ from springblock.study.results import (
     file_name,
     having,
 )
-from springblock.study.stale import remove_others
 
 #: Figures that show the surfaces which are filmed, by group.
 _FILMED = {"flat": "figure_3", "pillars": "figure_5", "grooves": "figure_8"}
@@ -122,22 +123,18 @@ class Plan:
                 chosen.setdefault(PARTS[part], []).append(part)
         return {table: list(dict.fromkeys(parts)) for table, parts in chosen.items()}
 
-    @property
-    def computed(self) -> list[Table]:
-        """Return the tables that are computed from realisations of groups of the study."""
-        return [t for t in TABLES.values() if t.groups and self.members(t.groups) and not self.own]
-
     @cached_property
     def tables(self) -> dict[str, str]:
         """Return the files of all tables by name."""
         correlations = ["correlation", "correlation_length"] if self.with_sides else []
-        names = ["realisations", *correlations, *(t.name for t in (*self.measured, *self.computed))]
+        names = ["realisations", *correlations, *self.of_chapters]
         return {name: f"{self.results}/tables/{name}.parquet" for name in names}
 
     @property
     def of_chapters(self) -> dict[str, Table]:
-        """Return the tables that the chapters compute, by name."""
-        return {table.name: table for table in (*self.measured, *self.computed)}
+        """Return the tables that the chapters compute, of parts or of groups of scenes, by name."""
+        every = [*self.measured, *(() if self.own else TABLES.values())]
+        return {t.name: t for t in every if t in self.measured or self.members(t.groups)}
 
     def sources(self, table: Table) -> list[str]:
         """Return the files from which a table is made: its parts, or batches and tables."""
@@ -203,18 +200,16 @@ class Plan:
         }
 
     def _lengths(self, figure: str) -> Mapping[str, Any]:
-        lengths: Mapping[str, Any] = self.configuration["figures"].get(figure, {})
-        return lengths
+        return self.configuration["figures"].get(figure, {})
 
     def needed(self, figure: str) -> list[str]:
         """Return the files of a figure; refuse lengths that no scene has."""
         if figure in self.sweeps:
             return self.batches(self.members(self.sweeps[figure]["groups"]))
         lengths, declared = self._lengths(figure), self.figures[figure]
-        shown = lengths.items() if declared.groups else ()
         scenes = chain.from_iterable(self.drawn[group] for group in declared.groups)
-        if shown and not any(shown <= scene.lengths.items() for scene in scenes):
-            wanted = ", ".join(f"{name} = {length}" for name, length in shown)
+        if declared.groups and not having(lengths, scenes):
+            wanted = ", ".join(f"{name} = {length}" for name, length in lengths.items())
             raise ValueError(
                 f"figures.{figure}: no scene of {' or '.join(declared.groups)} has {wanted}"
             )
@@ -229,11 +224,19 @@ class Plan:
         return planned(self.digest, [*library, *(t.code for t in TABLES.values() if t.made)])
 
     def remove_others(self, dryrun: bool) -> None:
-        """Remove tables of another configuration, which are then made again."""
-        parted = {table.name for table in TABLES.values() if table.parts}
-        names = TABLES.keys() - parted
-        files = [f"{self.results}/tables/{name}.parquet" for name in sorted(names)]
-        remove_others(files, self.digest, dryrun)
+        """Remove tables that keep the digest of another study than this, and say so.
+
+        They are made again from realisations, whatever Snakemake remembers of them or is told to
+        ignore: lost metadata, `--touch` and `--rerun-triggers` cannot hide them. A dry run removes
+        nothing.
+        """
+        names = sorted(table.name for table in TABLES.values() if not table.parts)
+        files = [Path(self.results, "tables", f"{name}.parquet") for name in names]
+        others = [file for file in files if file.exists() and _study_of(file) != self.digest]
+        for file in [] if dryrun else others:
+            file.unlink()
+        if others:
+            print(f"{len(others)} tables are of another configuration: made again", file=sys.stderr)
 
     def code(self, figure: str) -> str:
         """Return the digest of the code, and words, of a figure or sweep."""
@@ -251,3 +254,11 @@ class Plan:
 def _runs(job: Any) -> int:
     """Return the number of runs of a job; a prelude counts as one."""
     return int(job.last) - int(job.first) + 1 if hasattr(job, "last") else 1
+
+
+def _study_of(table: Path) -> str:
+    """Return the digest of the study that a table keeps; "" without one."""
+    try:
+        return origin_of(load(table, columns=[])).get("study", "")
+    except ValueError:
+        return "damaged"

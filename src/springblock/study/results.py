@@ -19,7 +19,6 @@ from springblock.model.scene import Scene
 from springblock.provenance import ANALYSE, SIMULATE, Code, digest, digest_of_data
 
 HERE = Path(__file__).parent
-_WORDS = ("title", "caption", "marks")  #: of a figure
 
 Groups = Mapping[str, Sequence[Scene]]  #: scenes of a study by group; a group may be empty
 Lengths = Mapping[str, Any]  #: of a scene, as the configuration gives them for a figure
@@ -76,9 +75,9 @@ class Page:
     def digest(self) -> str:
         """Return the digest of its words and of the code that computes its values."""
         chapter = HERE / self.values.partition(".")[0]
-        files = chain.from_iterable(chapter.glob(f"*.{kind}") for kind in ("md", "toml"))
         code = digest((*_SHOWING, f"{HERE.name}/pages.py", *_all_of(chapter)))
-        return digest_of_data([code, [file.read_text("utf-8") for file in files]])
+        words = sorted({*chapter.glob("*.md"), *chapter.glob("*.toml")})
+        return digest_of_data([code, [file.read_text("utf-8") for file in words]])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -187,19 +186,16 @@ def _all_of(chapter: Path) -> Code:
 def _read(kind: Callable[..., Any], entries: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     """Return the entries of one kind by name."""
     return {
-        name: kind(
-            name=name,
-            **{
-                key: tuple(value)
-                if isinstance(value, list)
-                else " ".join(value.format(**_SHARED).split())
-                if key in _WORDS
-                else value
-                for key, value in entry.items()
-            },
-        )
+        name: kind(name=name, **{key: _value(given) for key, given in entry.items()})
         for name, entry in entries.items()
     }
+
+
+def _value(given: Any) -> Any:
+    """Return a value of an entry: words on one line, with those that are shared, and tuples."""
+    if isinstance(given, str):
+        return " ".join(given.format(**_SHARED).split())
+    return tuple(given) if isinstance(given, list) else given
 
 
 _ENTRIES = tomllib.loads((HERE / "results.toml").read_text(encoding="utf-8"))

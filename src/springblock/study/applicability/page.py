@@ -34,12 +34,12 @@ def values(realisations: Iterable[Row], *_: Iterable[Row]) -> dict[str, Any]:
         scene = replace(scene_of(row), duration=0.0, snapshot_times=())
         friction.setdefault(scene, {})[row["seed"]] = row["static_friction"]
     strips, numbers = [], []
-    for scene in friction:
+    for scene, along in friction.items():
         width, n = scene.n_p2, scene.n_blocks
         if width and scene == Scene(n, n_p2=width, n_s2=width):
-            across = friction.get(Scene(n, n_p2=width, n_s2=width, direction="y"), {})
-            seeds = sorted(friction[scene].keys() & across.keys())
-            pairs = np.array([(across[seed], friction[scene][seed]) for seed in seeds])
+            across = friction.get(replace(scene, direction="y"), {})
+            seeds = sorted(along.keys() & across.keys())
+            pairs = np.array([(across[seed], along[seed]) for seed in seeds])
             if len(pairs) > 1:
                 numbers.append(len(pairs))
                 means = map(mean_interval, (pairs[:, 0], pairs[:, 1], pairs[:, 0] - pairs[:, 1]))

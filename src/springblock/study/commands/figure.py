@@ -42,16 +42,12 @@ def _realisations(declared: Figure, batches: Paths) -> list[Any]:
     return [records]
 
 
-def _tables(declared: Figure, tables: Paths) -> list[Any]:
+def _tables(declared: Figure, tables: Paths, **n_p: int) -> list[Any]:
     names = declared.tables + (declared.also if declared.draws == "correlations" else ())
     if not len(declared.tables) <= len(tables) <= len(names):
         raise ValueError(f"{len(tables)} files given; give {', '.join(declared.tables)}")
     named = zip(names, tables, strict=False)
-    return [read_as(name, table).to_pandas() for name, table in named]
-
-
-def _correlations(declared: Figure, tables: Paths, n_p: int) -> list[Any]:
-    return [n_p, *_tables(declared, tables)]
+    return [*n_p.values(), *(read_as(name, table).to_pandas() for name, table in named)]
 
 
 _many = partial(click.argument, type=INPUT, nargs=-1, required=True)
@@ -62,7 +58,7 @@ _DATA: dict[str, tuple[list[Callable[..., Any]], Callable[..., list[Any]]]] = {
     "pattern": ([scene_options], lambda declared, scene: [scene.pattern]),
     "tables": ([_many("tables")], _tables),
     "realisations": ([_many("batches")], _realisations),
-    "correlations": ([_many("tables"), _SIZE], _correlations),
+    "correlations": ([_many("tables"), _SIZE], _tables),
 }
 _OUTPUTS = click.option(
     "--output", "outputs", type=PICTURE, multiple=True, required=True, help="PDF, PNG or SVG file."
@@ -78,8 +74,7 @@ def _values(declared: Figure, data: list[Any]) -> dict[str, object]:
     samples = list(data[0].values()) if declared.keys else data
     scenes = [runs[0].scene for runs in samples]
     return {
-        "n_blocks": span(scene.n_blocks for scene in scenes),
-        "n_p": span(scene.n_p for scene in scenes),
+        **{name: span(getattr(scene, name) for scene in scenes) for name in ("n_blocks", "n_p")},
         "direction": ", ".join(dict.fromkeys(scene.direction for scene in scenes)),
         "runs": span(map(len, samples)),
     }

@@ -1,6 +1,5 @@
 """springblock make: a table, a part of one, or a page of the study."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +16,6 @@ from springblock.io.parquet import (
     write,
 )
 from springblock.io.records import read_records
-from springblock.io.rows import Row
 from springblock.provenance import made_by, of_study
 from springblock.study.results import PAGES, PARTS, TABLES, Table, found
 
@@ -54,7 +52,8 @@ def make(name: str, inputs: Paths, output: Path, **ensembles: Any) -> None:
         raise ValueError(f"{len(inputs)} files given; give none")
     elif _MADE[name].parts:
         _refuse(inputs, "parts of the table", bool(inputs))
-        _collect(_MADE[name], inputs, output)
+        origin = {"code_version": origin_of(load(inputs[0]))["code_version"]}  # the same for all
+        write(read(inputs, found(_MADE[name].columns)), output, origin)
     else:
         _from_evidence(_MADE[name], inputs, output)
 
@@ -68,38 +67,28 @@ def _write(table: Table, rows: Any, output: Path, origin: dict[str, str]) -> Non
     write(rows_to_table(list(rows), found(table.columns)), output, origin)
 
 
-def _collect(table: Table, parts: Paths, output: Path) -> None:
-    """Join parts, made by the same code."""
-    origin = {"code_version": origin_of(load(parts[0]))["code_version"]}
-    write(read(parts, found(table.columns)), output, origin)
-
-
 def _from_evidence(table: Table, files: Paths, output: Path) -> None:
     """Compute a table from batches, and tables in files of their names."""
-    tables = {file.stem: rows_of(file.stem, file) for file in files if file.stem in table.tables}
-    batches = [file for file in files if file.stem not in table.tables]
+    named = {file.stem: file for file in files if file.stem in table.tables}
+    tables = {name: read_as(name, file).to_pylist() for name, file in named.items()}
+    batches = [file for file in files if file.stem not in named]
     _refuse(files, "batches of realisations", bool(batches))
     records = read_records(batches, snapshots=True)
     _write(table, found(table.made)(records, **tables), output, of_study(table.code))
 
 
-def rows_of(name: str, file: Path) -> list[Row]:
-    """Read the rows of a table that must have the columns of its name, and be of this study."""
-    return read_as(name, file).to_pylist()
-
-
 def read_as(name: str, file: Path) -> Any:
-    """Read such a table."""
+    """Read a table that must have the columns of its name, and be of this study."""
     table = load(file, found(TABLES[name].columns).names)
     refuse_other_study(file, table)
     return table
 
 
-def _page(name: str, files: Sequence[Path]) -> str:
+def _page(name: str, files: Paths) -> str:
     """Return the text of a page from its tables, in their order."""
     from springblock.study.pages import rendered  # needs the packages of the study
 
     page = PAGES[name]
-    _refuse(tuple(files), f"the tables {', '.join(page.tables)}", len(files) == len(page.tables))
-    tables = zip(page.tables, files, strict=True)
-    return rendered(page.template, **found(page.values)(*(rows_of(*each) for each in tables)))
+    _refuse(files, f"the tables {', '.join(page.tables)}", len(files) == len(page.tables))
+    tables = [read_as(*each).to_pylist() for each in zip(page.tables, files, strict=True)]
+    return rendered(page.template, **found(page.values)(*tables))

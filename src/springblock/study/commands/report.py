@@ -16,7 +16,7 @@ from springblock.study.report.page import report_page
     "films",
     type=(INPUT, INPUT),
     multiple=True,
-    help="MP4 file and the batch whose first run it shows. Can be repeated.",
+    help="GIF file and the batch whose first run it shows. Can be repeated.",
 )
 @click.option("--own", is_flag=True, help="Report on a study with `study: own`.")
 @click.option("--output", type=Output(".html"), required=True, help="HTML file.")

@@ -19,7 +19,6 @@ from springblock.model.numbers import Array
 from springblock.model.surface import Surface
 from springblock.simulation.prelude import compute_prelude
 from springblock.simulation.resolution import DECAY, ZONE
-from springblock.simulation.run import Run
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
 from springblock.solver.integrators import limit
@@ -109,12 +108,10 @@ class Series:
 
     def surface(self, n: int, seed: int) -> Surface:
         """Return periodic cells with pillars or stripes of n blocks."""
-        contact, strength = self.cell(n)
-        contact = np.tile(contact, (self.pillars, self.pillars))
-        drawn = Surface.draw(contact, seed, self.material, periodic=True)
-        if not self.wave:
-            return drawn
-        return Surface(contact, strength * drawn.mu_static, drawn.mu_dynamic, periodic=True)
+        (contact, strength), times = self.cell(n), (self.pillars, self.pillars)
+        drawn = Surface.draw(np.tile(contact, times), seed, self.material, periodic=True)
+        mu_static = np.tile(strength, times) * drawn.mu_static
+        return Surface(drawn.contact, mu_static, drawn.mu_dynamic, periodic=True)
 
 
 def _varied(shape: str) -> Iterator[Series]:
@@ -232,18 +229,14 @@ def measure(part: str) -> Iterator[Row]:
             prelude = compute_prelude(contact, setup, along, periodic=True)
             for seed in series.seeds:
                 run = simulate(series.surface(n, seed), setup, along, prelude=prelude)
-                yield _row(series, n, seed, predicted, run)
-
-
-def _row(series: Series, n: int, seed: int, predicted: float, run: Run) -> Row:
-    last = int(np.argmax(run.force)) + 1
-    return known(series, n) | {
-        "seed": seed,
-        "predicted": predicted,
-        "simulated": run.static_friction,
-        "switches": run.switches[:last].sum() / max(run.detachments[:last].sum(), 1),
-        "prominence": run.prominence,
-    }
+                last = int(np.argmax(run.force)) + 1
+                yield known(series, n) | {
+                    "seed": seed,
+                    "predicted": predicted,
+                    "simulated": run.static_friction,
+                    "switches": run.switches[:last].sum() / max(run.detachments[:last].sum(), 1),
+                    "prominence": run.prominence,
+                }
 
 
 def known(series: Series, n: int) -> Row:

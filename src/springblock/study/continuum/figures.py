@@ -19,11 +19,9 @@ _WIDTHS = np.geomspace(1.0, 16.0, 31)
 def continuum_friction(table: pd.DataFrame) -> Figure:
     """Draw friction a) of stripes and b) of squares over their width, by kappa; c) best widths."""
     drawn = table[table["what"].str.match("d_c|l_z")]
-    kappas = sorted(drawn["kappa"].round(3).unique())
-    colors = dict(zip(kappas, _COLORS, strict=False))
     picture, (stripes, squares, best) = style.panels(style.DOUBLE, 78.0, "abc")
-    for kappa, cells in drawn.groupby(drawn["kappa"].round(3)):
-        color = colors[kappa]
+    by_kappa = drawn.groupby(drawn["kappa"].round(3))
+    for (kappa, cells), color in zip(by_kappa, _COLORS[: by_kappa.ngroups], strict=True):
         look: Look = {"color": color, "label": rf"$\kappa$ = {kappa:.2f}"}
         narrow, square = cells[cells["shape"] != "square"], cells[cells["shape"] == "square"]
         if len(narrow):
@@ -34,16 +32,14 @@ def continuum_friction(table: pd.DataFrame) -> Figure:
             line = square.groupby(sizes.round(6))["predicted"].mean()
             squares.plot(line.index, line, **look)
             _draw_points(squares, square, sizes, color)
-    stripes.set(xlabel=r"width of stripes $a/\lambda$", ylabel=FRICTION)
-    squares.set(xlabel="width of squares $a/l_z$", ylabel=FRICTION)
+    stripes.set(xlabel=r"width of stripes $a/\lambda$", ylabel=FRICTION, ylim=(None, 1.05))
+    squares.set(xlabel="width of squares $a/l_z$", ylabel=FRICTION, ylim=(None, 1.05))
     for shape, words in (("across", "across"), ("along", "along sliding")):
         stripes.plot([], [], _MARKERS[shape], color=BLACK, label=words)
     by_mu_d = style.shades(MU_D)
     for mu_d, widths in zip(MU_D, best_widths(), strict=True):
         best.plot(KAPPA, widths, color=by_mu_d[mu_d], label=rf"$\mu_d$ = {mu_d:g}")
     best.set(xlabel=r"$\kappa$", ylabel=r"best width of stripes $a^*/\lambda$", xscale="log")
-    for ax in (stripes, squares):
-        ax.set_ylim(None, 1.05)
     for ax in (stripes, squares, best):
         ax.legend(loc="upper right", ncols=1 if ax is best else 2)
     return picture

@@ -36,7 +36,7 @@ def values(
     """
     parts = judged(claims)
     shown = [row for part in parts for row in part.rows]
-    limit, samples = continuum.values(cells), by_size(realisations)
+    samples = by_size(realisations)
     (chain,) = select(edges, edge="along", what="paper", quantity="l_c")
 
     def found(statement: str, **case: Any) -> list[Row]:
@@ -49,10 +49,7 @@ def values(
         "size": lowest({n_p: samples[n_p] for n_p in samples if n_p}),
         "friction": {n_p: mean_interval(samples[n_p]) for n_p in samples},
         "chain": chain,
-        "usual": limit["usual"],
-        "best": limit["best"],
-        "last": max(abs(row["last"]) for row in limit["squares"]),
-        "coulomb": next(iter(limit["coulomb"]["means"].values())),
+        "limit": continuum.values(cells),
         "errors": accuracy.errors(production),
     }
 

@@ -36,14 +36,11 @@ _IN_TIME = (0, 2, 3, 6, 10, 20, 30, 60)  #: n_p in the curves of figure 6: the p
 _SMALL: Look = {"markersize": 1.8, "capsize": 2.2}  #: smaller than most intervals
 _SIZE = "size of the pillars $n_p$ (blocks)"
 _FLOOR = 0.01  #: %, where the logarithmic axis of detachments begins in figure 6
-_PAPERS_LENGTH = 3.0  #: blocks, l_c of the paper for n_p of 20 or more
 _LEAST = 0.01  #: c(r) at the foot of the logarithmic axis in figure 7
 _SIDES: dict[str, Look] = {
     "x": {"color": BLUE, "marker": "D", "linestyle": "none"},
     "y": {"color": VERMILION, "marker": "s", "linestyle": "none"},
 }
-_EXPONENTIAL = r"$\exp(-r/l_c)$"
-_FREE = r"$A\,\exp(-r/l_d)$"
 _DASHED: Look = {"linestyle": (0, (3.5, 1.2)), "linewidth": 0.9}  #: with A free
 #: Colour and name of sliding directions on grooves along x; others are oblique.
 _WAYS = {"x": (BLUE, "along grooves"), "y": (VERMILION, "across grooves")}
@@ -130,18 +127,18 @@ def figure_6(ensembles: BySize) -> Figure:
     for n_p, runs in ensembles.items():
         highest = np.array([run.static_friction for run in runs])
         lags = MICRO * np.array([run.t_max - run.t_avg for run in runs])
-        if n_p:
-            curves.draw_realisations(lag, n_p, lags, looks[n_p]["color"])
+        if n_p:  # each realisation, since these may form two clusters
+            lag.plot(np.full(len(lags), n_p), lags, color=looks[n_p]["color"], **curves.DOT)
         for ax, sample in ((static, highest), (lag, lags)):
+            mean = statistics.mean_interval(sample)
             if n_p:
-                curves.draw_means(ax, {n_p: sample}, linestyle="none", **(looks[n_p] | _SMALL))
+                curves.draw_points(ax, [n_p], [mean], linestyle="none", **(looks[n_p] | _SMALL))
             else:
-                _draw_flat(ax, sample)
-    for ax in (static, lag):
+                _draw_flat(ax, mean)
+    for ax, name in ((static, curves.FRICTION), (lag, curves.LAG)):
         curves.name_places(ax, [n_p for n_p in ensembles if n_p])
+        ax.set(xlabel=_SIZE, ylabel=name)
     lag.axhline(0.0, **curves.ZERO)
-    static.set(xlabel=_SIZE, ylabel=curves.FRICTION)
-    lag.set(xlabel=_SIZE, ylabel=curves.LAG)
     style.legend_above(picture, force, ncols=8)
     return picture
 
@@ -165,9 +162,9 @@ def _draw_time(force: Axes, blocks: Axes, ensembles: BySize, looks: Mapping[int,
     blocks.yaxis.set_major_formatter("{x:g}")
 
 
-def _draw_flat(ax: Axes, sample: Array) -> None:
+def _draw_flat(ax: Axes, interval: Interval) -> None:
     """Draw the mean of a flat surface as a line with a band over its interval."""
-    mean, low, high = map(float, statistics.mean_interval(sample))
+    mean, low, high = map(float, interval)
     ax.axhline(mean, color=BLACK, linewidth=0.8, linestyle="--")
     ax.axhspan(low, high, color="0.8", linewidth=0.0, zorder=0)
     below: Look = {"textcoords": "offset points", "ha": "center", "va": "top"}
@@ -193,26 +190,25 @@ def figure_7(
     picture, (linear, log, sizes) = style.panels(style.DOUBLE, 66.0, "abc")
     for side, curve in correlation.groupby("side"):
         told = curve[(curve["ci_low"] > 0.0).cummin()]  # not zero
+        look = _SIDES[str(side)] | {"label": f"$c_{side}(r)$, $n_p$ = {n_p}"}
         for ax, part in ((linear, curve[1:]), (log, told[1:])):
             values = Interval(*part[["correlation", "ci_low", "ci_high"]].to_numpy().T)
-            look = _SIDES[str(side)] | {"label": f"$c_{side}(r)$, $n_p$ = {n_p}"}
             curves.draw_band(ax, part["r"], values, **look)
-        fits: Any = shown.loc[str(side)]
-        _draw_fits(log, str(side), curve, fits)
+        _draw_fits(log, look["color"], curve["r"].max(), shown.loc[str(side)])
     if edges is not None:
         _draw_chain(log, edges)
     linear.axhline(0.0, **curves.ZERO)
-    log.plot([], [], color=GREY, label=_EXPONENTIAL)
-    log.plot([], [], color=GREY, label=_FREE, **_DASHED)
+    log.plot([], [], color=GREY, label=r"$\exp(-r/l_c)$")
+    log.plot([], [], color=GREY, label=r"$A\,\exp(-r/l_d)$", **_DASHED)
     log.set(yscale="log", ylim=(_LEAST, 1.1))
     log_end = 1.0 + correlation["r"][correlation["ci_low"] > 0.0].max()
     log.yaxis.set_major_formatter("{x:g}")
-    for ax in (linear, log):
+    for ax, end in ((linear, None), (log, log_end)):
         ax.set(xlabel="distance along the side $r$ (blocks)", ylabel="time correlation $c(r)$")
-        ax.set_xlim(0.0, log_end if ax is log else None)
+        ax.set_xlim(0.0, end)
         ax.xaxis.set_major_locator(MaxNLocator(integer=True, steps=[1, 2, 5, 10]))
     _draw_lengths(sizes, lengths[lengths["side"] == "x"])
-    sizes.axhline(_PAPERS_LENGTH, color=GREY, linestyle=":", zorder=0)
+    sizes.axhline(3.0, color=GREY, linestyle=":", zorder=0)  # l_c of the paper for n_p >= 20
     style.legend_above(picture, log, sizes, ncols=6)
     return picture
 
@@ -234,15 +230,14 @@ def _equal_gaps(table: "pd.DataFrame") -> "pd.DataFrame":
     return found[(found[same] == found[same].iloc[sizes.to_numpy().argmax()]).all(axis=1)]
 
 
-def _draw_fits(ax: Axes, side: str, curve: "pd.DataFrame", length: "pd.Series") -> None:
+def _draw_fits(ax: Axes, color: str, end: int, length: Any) -> None:
     """Draw the fitted exponentials, dotted beyond what they were fitted to."""
-    color, last, end = _SIDES[side]["color"], length["r_last"], curve["r"].max()
+    last = length["r_last"]
     for r, line in ((np.linspace(0.0, last), "-"), (np.linspace(last, end), ":")):
         ax.plot(r, np.exp(-r / length["l_c"]), color=color, linestyle=line)
     if np.isfinite(length["tail"]):
         r = np.linspace(1.0, last)
-        free = length["amplitude"] * np.exp(-r / length["tail"])
-        ax.plot(r, free, color=color, **_DASHED)
+        ax.plot(r, length["amplitude"] * np.exp(-r / length["tail"]), color=color, **_DASHED)
 
 
 def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:

@@ -222,9 +222,8 @@ def _surface_and_pillar(pattern: Pattern, portion: int) -> tuple[Figure, Axes, A
     surface.add_patch(frame)
     for up in (0, 1):
         corner = (left + size, bottom + up * size)
-        line = ConnectionPatch(corner, (0, up), surface.transData, pillar.transAxes)
-        line.set(color=GREY, linewidth=0.5)
-        picture.add_artist(line)
+        ends = corner, (0, up), surface.transData, pillar.transAxes
+        picture.add_artist(ConnectionPatch(*ends, color=GREY, linewidth=0.5))
     return picture, surface, pillar
 
 

@@ -8,7 +8,6 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from springblock.analysis.statistics import Interval
 from springblock.plotting import curves, style
 from springblock.plotting.style import BLACK, BLUE, GREY, MICRO, VERMILION, Look
 from springblock.theory.chain import decay_length
@@ -17,6 +16,7 @@ _EDGES: dict[str, Look] = {
     "along": {"color": BLUE, "marker": "D"},
     "across": {"color": VERMILION, "marker": "s"},
 }
+_SIMULATED = ["simulated", "simulated_low", "simulated_high"]  #: with its interval
 _USUAL = "ξ = 10 µm, d_c = 100 nm"  #: of the fronts that are drawn
 _FILLS = {1.25e-6: "full", 2.5e-6: "none"}  #: of symbols, by the spacing of the lattice
 
@@ -38,9 +38,8 @@ def _draw_lengths(ax: Axes, cells: pd.DataFrame) -> None:
     ax.plot(x, [decay_length(each) for each in x], color=GREY, label="avalanche")
     for edge, look in _EDGES.items():
         one = cells["edge"] == edge
-        columns = ["simulated", "simulated_low", "simulated_high"]
         own: Look = look | {"label": f"simulation, {edge}", "linestyle": "none"}
-        curves.draw_points(ax, handed[one], cells.loc[one, columns], **own)
+        curves.draw_points(ax, handed[one], cells.loc[one, _SIMULATED], **own)
         open_: Look = look | {"markerfacecolor": "none", "markersize": 7.0, "linestyle": "none"}
         ax.plot(handed[one], cells.loc[one, "predicted"], label=f"chain, {edge}", **open_)
     ax.set(xscale="log", yscale="log", ylabel="correlation length $l_c$ (blocks)")
@@ -57,11 +56,9 @@ def _draw_fronts(ax: Axes, cells: pd.DataFrame) -> None:
         r = of_r["quantity"].str.extract(r"c_(\d+)_um")[0].astype(float)
         if fill == "full":
             ax.plot([0.0, *r], [1.0, *of_r["predicted"]], color=look["color"])
-        values = Interval(*of_r[["simulated", "simulated_low", "simulated_high"]].to_numpy().T)
-        bars = np.abs(np.array([values.low, values.high]) - values.mean)
         size = 4.0 if fill == "full" else 7.0
-        sign: Look = look | curves.BAR | {"fillstyle": fill, "markersize": size}
-        ax.errorbar(r, values.mean, bars, **sign | {"linestyle": "none"})
+        sign: Look = look | {"fillstyle": fill, "markersize": size, "linestyle": "none"}
+        curves.draw_points(ax, r, of_r[_SIMULATED], **sign)
     for spacing, fill in _FILLS.items():
         name = f"$l$ = {MICRO * spacing:g} µm"
         ax.plot([], [], "o", color=BLACK, fillstyle=fill, label=name)

@@ -11,52 +11,44 @@ from springblock.io.rows import Row, select
 ACCEPTED, CLOSE = 0.1, 0.03
 
 
-def values(rows: Sequence[Row]) -> dict[str, Any]:
+def values(table: Sequence[Row]) -> dict[str, Any]:
     """Return what the template names, from the rows of the table `precursors`."""
+    ends = ("simulated", "simulated_low", "simulated_high")
+    rows = [
+        row
+        | {"found": Interval(*(row[end] for end in ends))}
+        | {"apart": abs(row["simulated"] - row["predicted"])}
+        for row in table
+    ]
     lengths = [
-        row | {"found": _interval(row), "mark": "" if _agrees(row) else "†"}
+        row | {"mark": "" if _agrees(row, ACCEPTED * row["predicted"]) else "†"}
         for row in select(rows, quantity="l_c")
-        if not math.isnan(row["simulated"] + row["predicted"])
+        if not math.isnan(row["apart"])
     ]
     fronts = [row for row in rows if row["quantity"].endswith("_um")]
     fine = [row for row in fronts if row["spacing"] < 3e-6]
     return {
-        "paper": {edge: _of_paper(rows, edge) for edge in ("along", "across")},
+        "paper": {
+            edge: {row["quantity"]: row for row in select(rows, edge=edge, what="paper")}
+            for edge in ("along", "across")
+        },
         "lengths": lengths,
         "by_what": {
-            what: {row["edge"]: row for row in lengths if row["what"] == what}
+            what: {row["edge"]: row for row in select(lengths, what=what)}
             for what in dict.fromkeys(row["what"] for row in lengths)
         },
-        "agreeing": sum(map(_agrees, lengths)),
+        "agreeing": len(select(lengths, mark="")),
         "fine": len(fine),
-        "within": sum(_difference(row) <= CLOSE or _is_within(row) for row in fine),
+        "within": sum(_agrees(row, CLOSE) for row in fine),
         "arm": sum(row["simulated_high"] - row["simulated_low"] for row in fine) / len(fine) / 2.0,
-        "furthest": max(fine, key=_difference),
-        "difference": max(map(_difference, fine)),
-        "coarse": max(map(_difference, (row for row in fronts if row not in fine))),
-        "reaches": [row | {"found": _interval(row)} for row in select(rows, quantity="reach")],
-        "scatters": [row | {"found": _interval(row)} for row in select(rows, quantity="scatter")],
+        "furthest": max(fine, key=lambda row: row["apart"]),
+        "coarse": max(row["apart"] for row in fronts if row not in fine),
+        "reaches": select(rows, quantity="reach"),
+        "scatters": select(rows, quantity="scatter"),
     }
 
 
-def _of_paper(rows: Sequence[Row], edge: str) -> dict[str, Row]:
-    """Return the rows of an edge with the paper's constants by quantity."""
-    found = select(rows, edge=edge, what="paper")
-    return {row["quantity"]: row | {"found": _interval(row)} for row in found}
-
-
-def _interval(row: Row) -> Interval:
-    return Interval(row["simulated"], row["simulated_low"], row["simulated_high"])
-
-
-def _agrees(row: Row) -> bool:
-    """Whether the prediction lies in the interval, or within 10 % of the simulation."""
-    return _is_within(row) or _difference(row) <= ACCEPTED * row["predicted"]
-
-
-def _is_within(row: Row) -> bool:
-    return bool(row["simulated_low"] <= row["predicted"] <= row["simulated_high"])
-
-
-def _difference(row: Row) -> float:
-    return float(abs(row["simulated"] - row["predicted"]))
+def _agrees(row: Row, close: float) -> bool:
+    """Whether the prediction lies in the interval, or is `close` to the simulation."""
+    is_within = row["simulated_low"] <= row["predicted"] <= row["simulated_high"]
+    return is_within or row["apart"] <= close

@@ -25,7 +25,7 @@ class Page(NamedTuple):
     """A page as HTML, with its title."""
 
     title: str
-    body: Markup = Markup()
+    body: Markup
 
 
 def typeset(text: str) -> Markup:
@@ -37,11 +37,8 @@ def typeset(text: str) -> Markup:
 
 def symbols(html: str) -> Markup:
     """Return HTML with the indices of its symbols below the line."""
-    return Markup(_SYMBOL.sub(lambda found: _symbol(*found.groups()), html))
-
-
-def _symbol(letter: str, index: str) -> str:
-    return f"<var>{letter.replace('mu', 'μ')}<sub>{index}</sub></var>"
+    printed = _SYMBOL.sub(r"<var>\1<sub>\2</sub></var>", html)
+    return Markup(printed.replace("<var>mu<", "<var>μ<"))
 
 
 def rendered(name: str, markdown: str, pages: Collection[str] = ()) -> Page:
@@ -118,17 +115,16 @@ def shown(name: str, table: pa.Table) -> dict[str, Any]:
 
     Columns have a name, a unit, a meaning, and whether they hold numbers.
     """
-    columns = [_column(field) for field in table.schema]
-    values = [[_text(value) for value in column.to_pylist()] for column in table.columns]
-    is_same = [table.num_rows > 1 and len(set(texts)) == 1 for texts in values]
-    every = list(zip(columns, values, is_same, strict=True))
-    kept = [texts for _, texts, same in every if not same]
-    return {
-        "name": name,
-        "same": [(column, texts[0]) for column, texts, same in every if same and texts[0]],
-        "columns": [column for column, _, same in every if not same],
-        "rows": list(zip(*kept, strict=True)),
-    }
+    same, columns, cells = [], [], []
+    for field, column in zip(table.schema, table.columns, strict=True):
+        texts = [_text(value) for value in column.to_pylist()]
+        if len(texts) == 1 or len({*texts}) != 1:
+            columns.append(_column(field))
+            cells.append(texts)
+        elif texts[0]:
+            same.append((_column(field), texts[0]))
+    rows = list(zip(*cells, strict=True))
+    return {"name": name, "same": same, "columns": columns, "rows": rows}
 
 
 def _column(field: pa.Field) -> dict[str, Any]:

@@ -8,7 +8,6 @@ from itertools import chain
 from pathlib import Path
 from typing import Any
 
-import pyarrow as pa
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
@@ -60,7 +59,7 @@ def report_page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = F
     return rendered(
         "own.html" if own else "page.html",
         **content,
-        means=_spaced(shown) if shown else (),
+        means=in_words(shown) if shown else (),
         n_runs=len(runs),
         figures=figures,
         pages=pages,
@@ -70,7 +69,7 @@ def report_page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = F
             file.stem: media.address("application/octet-stream", file.read_bytes())
             for file in kinds[".parquet"]
         },
-        origin=origin(data),
+        origin=origin_of(data["realisations"]) if "realisations" in data else {},
     )
 
 
@@ -79,7 +78,7 @@ def _of_own(members: Sequence[Ensemble]) -> dict[str, Any]:
     paper = dict(Material().items())
     changes = changes_from_first(members, ["static_friction"])
     return {
-        "changes": _spaced(changes) if changes else (),
+        "changes": in_words(changes) if changes else (),
         "doubts": doubts(members),
         "common": [
             f"{name} = {value} {UNITS.get(name, '')}".strip()
@@ -102,12 +101,6 @@ def _on_surfaces(members: Sequence[Ensemble]) -> list[Row]:
     return sorted(rows, key=lambda row: row["surface"].count(","))
 
 
-def _spaced(rows: Sequence[Row]) -> tuple[list[str], list[list[str]]]:
-    """Return the headings and cells of a table, with the observable that is no symbol in words."""
-    head, cells = in_words(rows)
-    return [name.replace("static_friction", "static friction") for name in head], cells
-
-
 def _of_study(
     figures: Figures, pages: Mapping[str, markup.Page], claims: Iterable[Row]
 ) -> dict[str, Any]:
@@ -116,10 +109,7 @@ def _of_study(
     return {
         "findings": (findings or markup.rendered("findings", FILE.read_text("utf-8"), pages)).body,
         "statements": judged(claims),
-        "in_text": {
-            place: [figures[name] for name in names if name in figures]
-            for place, names in IN_TEXT.items()
-        },
+        "in_text": IN_TEXT,
         "parts": _parts(figures, pages),
         "version": version("springblock"),
     }
@@ -142,24 +132,12 @@ def rendered(template: str, **content: Any) -> str:
     )
 
 
-def _parts(figures: Figures, pages: Mapping[str, markup.Page]) -> list[dict[str, Any]]:
-    """Parts that have something to show, in order, without the figures in the text."""
+def _parts(figures: Figures, pages: Mapping[str, markup.Page]) -> dict[str, list[dict[str, Any]]]:
+    """Figures of the parts that have something to show, in order, without those in the text."""
     left: dict[str, list[dict[str, Any]]] = {}
     for name, figure in figures.items():
         if name not in chain.from_iterable(IN_TEXT.values()):
             part = figure["category"].lower()
             left.setdefault(part if part in pages else "figures", []).append(figure)
-    parts = []
-    for name in dict.fromkeys([*ORDER, *pages, *left]):
-        page = pages.get(name, markup.Page(name.capitalize()))
-        if name in pages or name in left:
-            shown = left.get(name, [])
-            parts.append({"name": name, "title": page.title, "body": page.body, "figures": shown})
-    return parts
-
-
-def origin(data: Mapping[str, pa.Table]) -> dict[str, str]:
-    """Return what the table of realisations was made with."""
-    known = origin_of(data["realisations"]) if "realisations" in data else {}
-    names = {"code version": "code_version", "study": "study"}
-    return {name: known[key] for name, key in names.items() if key in known}
+    names = [name for name in dict.fromkeys([*ORDER, *pages, *left]) if name in {*pages, *left}]
+    return {name: left.get(name, []) for name in names}
