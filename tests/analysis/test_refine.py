@@ -66,3 +66,8 @@ def test_lengths_in_metres_are_those_of_the_first_lattice(surface, monkeypatch):
         assert setup.material.thickness == 2e-5
         limit = setups[0].step * setups[0].material.omega_max
         assert setup.step * setup.material.omega_max == pytest.approx(limit, rel=0.1)
+
+
+def test_the_command_refuses_edges_that_would_be_joined_anew(springblock):
+    said = springblock("refine", "--n-blocks", 4, "--edges", "periodic", refused=True)
+    assert "refine needs free edges and coefficients that are drawn" in said
