@@ -93,10 +93,9 @@ class Study:
         """Give keys of the configuration other values."""
         self.write("tiny.yaml", {**self.configuration, **changes})
 
-    def write(self, name: str, configuration: dict[str, Any]) -> str:
-        """Write a configuration; returns its name."""
+    def write(self, name: str, configuration: dict[str, Any]) -> None:
+        """Write a configuration."""
         (self / name).write_text(yaml.safe_dump(configuration))
-        return name
 
     def edit(self, module: str, old: str = "", new: str = "\n# another line\n") -> None:
         """Replace a piece of a module, or add a comment, in a package of the study's own."""

@@ -1,4 +1,4 @@
-"""The profile of a cluster and the container; `make test-slurm` runs a study on a cluster."""
+"""Rules, the profile of a cluster and the container; `make test-slurm` runs a study by Slurm."""
 
 import re
 
@@ -8,6 +8,14 @@ from studies import ROOT
 
 RULES = "".join(file.read_text() for file in (ROOT / "workflow/rules").glob("*.smk"))
 CONTAINER = (ROOT / "container/springblock.def").read_text()
+
+
+def test_rules_quote_every_path():
+    commands = re.findall(r"^( +)shell:\n((?:\1 +.*\n)+)", RULES, re.MULTILINE)
+    text = "".join(body for _, body in commands)
+    placeholders = re.findall(r"\{((?:input|output|log).*?)\}", text)
+    assert len(placeholders) > len(commands) > 10
+    assert all(each.endswith(":q") for each in placeholders)
 
 
 def test_profiles_differ_in_cores_and_group_jobs_of_rules_that_exist():

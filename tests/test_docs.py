@@ -3,7 +3,6 @@
 import csv
 import re
 from collections import Counter
-from pathlib import Path
 from pkgutil import resolve_name
 
 import click
@@ -14,20 +13,16 @@ from springblock import Material, Realisation
 from springblock.__main__ import main
 from springblock.model.scene import FIELDS
 from springblock.study.findings.page import FILE
+from studies import ROOT
 
-ROOT = Path(__file__).parents[1]
-PAGES = {
-    file.stem: file.read_text(encoding="utf-8")
-    for file in [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *ROOT.glob("docs/*.md")]
-}
-
-LINKING = ["README.md", "CONTRIBUTING.md", "config/README.md"]
-LINKING += [str(file.relative_to(ROOT)) for file in sorted(ROOT.glob("docs/**/*.md"))]
+FILES = [ROOT / file for file in ("README.md", "CONTRIBUTING.md", "config/README.md")]
+FILES += sorted(ROOT.glob("docs/**/*.md"))
+PAGES = {str(file.relative_to(ROOT)): file.read_text(encoding="utf-8") for file in FILES}
 
 
 def symbols(heading):
     """Rows of the tables of symbols below a heading: the name in the code, and what follows it."""
-    section = PAGES["model"].split(f"## {heading}\n")[1].split("\n## ")[0]
+    section = PAGES["docs/model.md"].split(f"## {heading}\n")[1].split("\n## ")[0]
     return re.findall(r"^\| .*? \| `(\w+)` \| (\S+) \| (.*?) \|$", section, re.MULTILINE)
 
 
@@ -54,14 +49,14 @@ def test_pages_count_the_verdicts_of_registered_tests():
         registered = Counter(row["verdict"] for row in csv.DictReader(file))
     names = ("reproduced", "reproduced in part", "not reproduced", "not settled")
     for place in ("docs/claims.md", "docs/registration/README.md"):
-        text = " ".join((ROOT / place).read_text(encoding="utf-8").split())
+        text = " ".join(PAGES[place].split())
         said = re.search(r"gave,?[^.]* \d+ reproduced[^.]* not settled\.", text)
         counts = re.findall(r"(\d+) (?:reproduced|in part|not)", said[0])
         assert list(map(int, counts)) == [registered[name] for name in names]
 
 
 def test_the_readme_has_the_findings_that_reports_show():
-    (found,) = re.findall(r"<!-- findings.*?-->\n(.*?)<!-- end", PAGES["README"], re.DOTALL)
+    (found,) = re.findall(r"<!-- findings.*?-->\n(.*?)<!-- end", PAGES["README.md"], re.DOTALL)
     assert found == FILE.read_text(encoding="utf-8")
 
 
@@ -72,9 +67,9 @@ def anchors(text):
     return {*words, *re.findall(r'<a id="([^"]+)">', text)}
 
 
-@pytest.mark.parametrize("page", LINKING, ids=str)
+@pytest.mark.parametrize("page", PAGES)
 def test_links_between_pages_lead_to_files_and_headings(page):
-    text = re.sub(r"^```.*?^```", "", (ROOT / page).read_text(encoding="utf-8"), flags=re.S | re.M)
+    text = re.sub(r"^```.*?^```", "", PAGES[page], flags=re.DOTALL | re.MULTILINE)
     for link in re.findall(r'(?:\]\(|href="|src=")([^)"\s]+)', text):
         if not link.startswith("https://"):
             name, _, anchor = link.partition("#")
@@ -98,7 +93,7 @@ def test_commands_that_pages_show_are_known_with_their_options():
 
 
 def test_every_public_name_is_in_the_reference():
-    page = (ROOT / "docs/api.md").read_text(encoding="utf-8")
-    shown = [path.rsplit(".", 1) for path in re.findall(r"^::: (.+)$", page, re.MULTILINE)]
+    paths = re.findall(r"^::: (.+)$", PAGES["docs/api.md"], re.MULTILINE)
+    shown = [path.rsplit(".", 1) for path in paths]
     found = {name: resolve_name(f"{module}:{name}") for module, name in shown}
     assert found == {name: getattr(springblock, name) for name in springblock.__all__}

@@ -15,7 +15,6 @@ from springblock.provenance import PLAN, SIMULATE, planned
 from studies import FEWER, Study
 
 TARGETS = ("simulate", "aggregate", "correlations", "figure_6")
-OTHER = {"material": {"slider_velocity": 5e-3, "gamma": 4e3}}
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +35,7 @@ def study(undisturbed, tmp_path) -> Study:
 def both(undisturbed, tmp_path_factory) -> Study:
     """The same, run with another damping afterwards; it has the realisations of both."""
     study = undisturbed.copied(tmp_path_factory.mktemp("both") / "study")
-    study.configure(**OTHER)
+    study.configure(material={"slider_velocity": 5e-3, "gamma": 4e3})
     study.run()
     return study
 
@@ -74,12 +73,10 @@ def test_constants_that_change_and_change_back_give_the_first_tables(
 def test_a_batch_is_read_only_under_its_own_name(study, springblock, tmp_path):
     """Neither one of other constants, nor one of other seeds."""
     first, last = sorted(batch(study).parent.glob("*.parquet"))
-    words = "aggregate", first, "--output", tmp_path / "a.parquet"
-    shutil.copy(last, first)
-    said = springblock(*words, refused=True)
-    assert re.search(r"flat.*0-1.parquet holds seeds 2 to 2 of \w+, not those of its name", said)
-    shutil.copy(batch(study, "pillars-6-6-x"), first)
-    assert "not those of its name" in springblock(*words, refused=True)
+    for other, seeds in ((last, "2 to 2"), (batch(study, "pillars-6-6-x"), "0 to 1")):
+        shutil.copy(other, first)
+        said = springblock("aggregate", first, "--output", tmp_path / "a", refused=True)
+        assert re.search(rf"0-1.parquet holds seeds {seeds} of \w+, not those of its name", said)
 
 
 def jobs(study):

@@ -12,6 +12,7 @@ import springblock
 from springblock import provenance
 from springblock.provenance import ANALYSE, COMPILE, SIMULATE
 from springblock.study.results import FIGURES, PAGES, TABLES, found
+from studies import ROOT as REPOSITORY
 
 ROOT = Path(springblock.__file__).parent
 SOURCE = '''"""A module."""
@@ -105,7 +106,7 @@ def imports(file):
 
 def floors():
     """Folders and modules of the package, in the order of the map in CONTRIBUTING.md."""
-    text = (Path(__file__).parents[1] / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    text = (REPOSITORY / "CONTRIBUTING.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| (`[a-z].+?) \| ", text, re.MULTILINE)
     return {name: i for i, row in enumerate(rows) for name in re.findall(r"`(\w+)(?:/|\.py)`", row)}
 

@@ -83,3 +83,18 @@ def test_the_study_is_planned_from_the_file_that_the_catalogue_of_workflows_read
     usual, jobs = study.planned(*elsewhere), study.planned("-s", "workflow/Snakefile", *elsewhere)
     assert jobs.keys() ^ usual.keys() <= {"all", "study"}
     assert all(jobs[name] == usual[name] for name in jobs.keys() & usual.keys())
+
+
+def test_a_repeated_key_and_an_unforeseen_error_are_one_sentence(tmp_path):
+    study = Study.begun(tmp_path)
+    configured = (study / "tiny.yaml").read_text()
+    (study / "tiny.yaml").write_text(configured + "step: 1.0e-8\nstep: 2e-8\n")
+    said = study.run("-n", refused=True)
+    assert re.search(r"tiny.yaml, line \d+: key 'step' is repeated; rename or remove it", said)
+    assert "Traceback" not in said
+    (study / "tiny.yaml").write_text(configured)
+    study.edit("study/configuration.py", "def check(", "def check(*_): {}['x']\n\n\ndef unused(")
+    said = study.run("-n", refused=True)
+    assert "The study cannot be run: " in said
+    assert "KeyError('x'); SPRINGBLOCK_TRACEBACK=1 shows where this happened." in said
+    assert "Traceback" not in said

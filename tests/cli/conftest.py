@@ -16,10 +16,3 @@ def batch(springblock, tmp_path_factory):
         return file
 
     return simulated
-
-
-@pytest.fixture(scope="session")
-def pillars(batch):
-    """Two batches of one scene whose pillars have sides."""
-    scene = ("--n-p", 6, "--n-s", 6)
-    return batch(0, 1, *scene), batch(2, 2, *scene)

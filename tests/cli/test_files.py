@@ -3,6 +3,7 @@
 import os
 from pathlib import Path
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
@@ -94,3 +95,14 @@ def test_a_file_is_no_folder_to_write_to(springblock, tmp_path):
     words = ("prelude", "--n-blocks", 4, "--output", tmp_path / "file/deep/prelude")
     refusal = springblock(*words, refused=True)
     assert f"cannot be written, because {tmp_path / 'file'} is not a folder" in refusal
+
+
+def test_no_pickled_object_is_loaded_from_a_prelude(springblock, tmp_path):
+    class Trap:
+        def __reduce__(self):
+            return os.mkdir, (str(tmp_path / "sprung"),)
+
+    np.savez(tmp_path / "trap.npz", fields=np.array([Trap()]))
+    words = ("--n-blocks", 4, "--prelude", tmp_path / "trap.npz", "--output", tmp_path / "a")
+    assert "trap.npz is not a prelude" in springblock("simulate", *words, refused=True)
+    assert not (tmp_path / "sprung").exists()

@@ -4,19 +4,24 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from precision import tables
 from springblock.io.parquet import load, write
 from springblock.study.accuracy import stability
 from springblock.study.accuracy.stability.cases import Case, Outcome
 from springblock.study.results import TABLES, found
-from study.mechanism import chapter
+from study.accuracy.test_page import tables
+from study.mechanism.test_page import TABLES as MECHANISM
 
 
-def as_table(name, rows):
-    """Rows as the table of this name; columns that they lack hold nothing."""
-    return pa.Table.from_pylist(
-        rows, pa.schema([(f.name, f.type) for f in found(TABLES[name].columns)])
-    )
+@pytest.fixture
+def stored(tmp_path):
+    """Write rows as the table of a name; columns that they lack hold nothing."""
+
+    def write_rows(name, rows):
+        columns = pa.schema([(f.name, f.type) for f in found(TABLES[name].columns)])
+        write(pa.Table.from_pylist(rows, columns), tmp_path / name, {})
+        return tmp_path / name
+
+    return write_rows
 
 
 def test_too_few_or_too_many_inputs_are_refused(springblock, tmp_path):
@@ -60,30 +65,17 @@ def test_what_friction_depends_on_becomes_a_table_from_batches(springblock, batc
     ]
 
 
-def test_a_page_whose_sentences_its_tables_contradict_is_not_written(springblock, tmp_path):
+def test_a_page_whose_sentences_its_tables_contradict_is_not_written(springblock, stored, tmp_path):
     """Friction of the simulation is lowest on pillars of 20 and 6 blocks here."""
-    tables = {"mechanism": chapter.rows(), "mechanism_damped": chapter.damped()}
-    tables["mechanism_springs"] = chapter.springs()
-    tables["mechanism_grooves"] = chapter.grooves()
-    tables["sensitivities"] = chapter.settings()
-    for name, rows in tables.items():
-        write(as_table(name, rows), tmp_path / name, {})
-    files = [tmp_path / name for name in tables]
+    files = [stored(name, rows) for name, rows in MECHANISM.items()]
     said = springblock("make", "mechanism", *files, "--output", tmp_path / "a.md", refused=True)
     assert "the tables contradict “Static friction is lowest on pillars of 20 (or 6)" in said
     assert not (tmp_path / "a.md").exists()
 
 
-def test_four_tables_become_the_page_on_errors(springblock, batch, tmp_path):
+def test_four_tables_become_the_page_on_errors(springblock, batch, stored, tmp_path):
     precision, stability, _, production = tables()
-    files = []
-    for name, rows in zip(
-        ("work_precision", "stability", "production"),
-        (precision, stability, production),
-        strict=True,
-    ):
-        write(as_table(name, rows), tmp_path / name, {})
-        files.append(tmp_path / name)
-    files.insert(2, batch(0, 0))
+    files = [stored("work_precision", precision), stored("stability", stability), batch(0, 0)]
+    files.append(stored("production", production))
     springblock("make", "accuracy", *files, "--output", tmp_path / "page.md")
     assert "| 4e-08 | 0.25 | " in (tmp_path / "page.md").read_text(encoding="utf-8")

@@ -8,25 +8,10 @@ import sys
 import time
 
 import pyarrow.parquet as pq
-import pytest
 
 from springblock.io.schemas import SUMMARY
 
 SURFACE = ("--n-blocks", 8, "--n-p", 2, "--n-s", 2)
-
-
-@pytest.fixture(scope="module")
-def folder(springblock, tmp_path_factory):
-    """A finished sweep."""
-    place = tmp_path_factory.mktemp("sweep") / "speeds"
-    swept(springblock, place, "--seeds", 2)
-    return place
-
-
-def swept(springblock, folder, *others, refused=False):
-    how = ["--slider-velocity", "5e-3,1e-2", "--jobs", 2]
-    how += [] if "--direction" in others else ["--direction", "x,y"]
-    return springblock("sweep", *SURFACE, *how, *others, "--output", folder, refused=refused)
 
 
 def test_all_its_runs_have_the_samples_of_the_fastest_slider_and_each_run_once(
@@ -42,7 +27,10 @@ def test_all_its_runs_have_the_samples_of_the_fastest_slider_and_each_run_once(
     ]
 
 
-def test_its_runs_are_those_of_single_commands(springblock, folder, tmp_path):
+def test_its_runs_are_those_of_single_commands(springblock, tmp_path):
+    folder = tmp_path / "speeds"
+    varied = ("--slider-velocity", "5e-3,1e-2", "--direction", "x,y", "--seeds", 2, "--jobs", 2)
+    springblock("sweep", *SURFACE, *varied, "--output", folder)
     table = pq.read_table(folder / "realisations.parquet")
     assert table.num_rows == 8
     own = ("--slider-velocity", "1e-2", "--direction", "y", "--last-seed", 1)
@@ -71,8 +59,8 @@ def test_lengths_ranges_and_laws_are_varied(springblock, tmp_path):
     }
 
 
-def test_values_that_are_no_numbers_are_refused(springblock, folder):
-    said = swept(springblock, folder, "--n-p", "2,a", refused=True)
+def test_values_that_are_no_numbers_are_refused(springblock, tmp_path):
+    said = springblock("sweep", "--n-p", "2,a", "--output", tmp_path, refused=True)
     assert "'a' is not a valid integer" in said
 
 

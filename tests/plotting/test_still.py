@@ -1,19 +1,25 @@
-"""Pictures of one run and of one surface show what these hold, and stay on their pages."""
+"""Pictures of runs and of surfaces show what these hold, and stay on their pages."""
 
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 
 from springblock import Pattern, Realisation, Surface, plot, simulate
+from springblock.io.records import Record
+from springblock.model.blockmap import BlockMap
+from springblock.model.scene import Scene
 from springblock.plotting.maps import painted, scale
 from springblock.plotting.still import plot_fields, show
 from springblock.plotting.style import BEFORE_AFTER, BLACK, CONTACT, NO_CONTACT
 from springblock.simulation.fields import Fields
+from study.paper.test_results import draw, record
 
 PILLARS = Pattern.pillars(12, 4, 2)
+ISLANDS = np.indices((6, 9)).sum(axis=0) % 4 > 1
 GROOVED = Pattern.pillars(60, 28, 32).grooved(8, 2)
 SURFACES = {
     "flat": Pattern.flat(8).contact,
@@ -48,7 +54,23 @@ def kept(count: int) -> Fields:
     return simulate(surface, duration=1.6e-4, snapshot_times=times[:count]).fields
 
 
+@cache
+def on_islands(number: int) -> list[Record]:
+    """Runs on islands that let go from left to right, about t_max."""
+    scene = Scene(mask=BlockMap("islands-1a2b3c4d", ISLANDS))
+    made = [record(seed, (110e-6,)) for seed in range(number)]
+    columns = np.linspace(0.8, 1.2, 9)
+    times = [np.where(ISLANDS, run.t_max * (columns + 0.01 * run.seed), np.nan) for run in made]
+    own = {"scene": scene, "contact": ISLANDS}
+    return [replace(run, **own, t_det=t) for run, t in zip(made, times, strict=True)]
+
+
+def draw_surfaces(number: int = 3) -> Figure:
+    return draw("surfaces", {name: on_islands(number) for name in ("first", "second")})
+
+
 #: Drawn for `test_every_figure.py`.
+DRAWINGS = {"surfaces": draw_surfaces, "surfaces of one run": partial(draw_surfaces, 1)}
 PICTURES = {
     "run": lambda: plot(made()),
     "oblong run": lambda: plot(oblong()),
@@ -118,3 +140,22 @@ def test_blocks_are_those_of_the_mask(name):
     np.testing.assert_array_equal(detail.images[0].get_array(), contact[bottom:top, left:right])
     assert contact[bottom:top, left:right].any()
     assert (top - bottom, right - left) == tuple(np.minimum(contact.shape, 24))
+
+
+def test_a_row_shows_the_mask_the_mean_times_and_the_force():
+    (mask, times, force), others = np.split(draw_surfaces().axes, [3])
+    np.testing.assert_array_equal(mask.images[0].get_array(), ISLANDS)
+    expected = np.where(ISLANDS, np.linspace(0.8, 1.2, 9) + 0.01, np.nan)
+    shown = np.ma.filled(times.images[0].get_array(), np.nan)
+    np.testing.assert_allclose(shown, expected)
+    assert force.get_ylim()[0] == 0.0
+    names = [ax.get_title("left") for ax in (mask, *others)]
+    assert names.count("mask = islands-1a2b3c4d") == 2
+
+
+def test_a_block_that_has_not_let_go_in_a_run_has_no_mean_time():
+    one, other = on_islands(2)
+    short = replace(other, t_det=np.where(np.arange(9) < 8, np.nan, other.t_det))
+    (image,) = draw("surfaces", {"short": [one, short]}).axes[1].images
+    known = np.isfinite(np.ma.filled(image.get_array(), np.nan))
+    np.testing.assert_array_equal(known, ISLANDS & (np.arange(9) == 8))

@@ -1,7 +1,6 @@
 """The page on where the model applies has the values of the tables, or is not written."""
 
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,6 +9,7 @@ from springblock.io.identity import identity
 from springblock.model.scene import Scene
 from springblock.study.applicability.page import values
 from springblock.study.pages import rendered
+from studies import ROOT
 
 #: Static friction by width of strips: across the grooves, and along them.
 FRICTION = {60: (0.73, 0.72), 6: (0.68, 0.70), 1: (0.85, 0.86)}
@@ -44,7 +44,7 @@ def test_the_page_has_a_row_for_each_width_and_is_what_the_template_writes():
     assert "more than\n25 %" in page
     across, along = (each.mean for each in found["strips"][1][2:4])
     assert f"\n| 10 | 6 | {across:.4f} | {along:.4f} | " in page
-    written = Path(__file__).parents[2].joinpath("docs/applicability.md").read_text("utf-8")
+    written = (ROOT / "docs/applicability.md").read_text("utf-8")
     words = (
         re.sub(r"^\|.*|-?[\d.]+(?: \[.*?\])?", "#", text, flags=re.M) for text in (written, page)
     )

@@ -164,9 +164,9 @@ def surfaces(tmp_path, monkeypatch):
     np.save("mu.npy", np.full((3, 3), 1.5))
     Path("broken.png").write_bytes(b"no image")
 
-    def configured(direction=("x",), seeds=4, **grid):
-        counted = {} if seeds is None else {"seeds": seeds}
-        return changed("scenes.own", to={"direction": [*direction], **counted, **grid})
+    def configured(**grid):
+        whole = {"direction": ["x"], "seeds": 4} | grid
+        return changed("scenes.own", to={k: v for k, v in whole.items() if v is not None})
 
     return configured
 

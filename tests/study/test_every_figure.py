@@ -12,13 +12,12 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-from plotting import test_surfaces as surfaces
-from plotting.test_still import PICTURES
+from plotting import test_still as still
 from springblock.plotting import style
 from springblock.study.results import FIGURES
 
 TESTS = sorted(Path(__file__).parent.glob("*/test_*.py"))
-DRAWINGS: dict[str, Callable[[], Figure]] = dict(surfaces.DRAWINGS)
+DRAWINGS: dict[str, Callable[[], Figure]] = dict(still.DRAWINGS)
 for test in TESTS:
     DRAWINGS |= getattr(import_module(f"study.{test.parent.name}.{test.stem}"), "DRAWINGS", {})
 
@@ -26,7 +25,7 @@ for test in TESTS:
 @cache
 def drawn(name: str) -> Figure:
     """A figure whose panels have their places."""
-    picture = (DRAWINGS | PICTURES)[name]()
+    picture = (DRAWINGS | still.PICTURES)[name]()
     style.settle(picture)
     return picture
 
@@ -35,7 +34,7 @@ def test_every_figure_is_drawn_here():
     assert {name.split()[0] for name in DRAWINGS} == set(FIGURES)
 
 
-@pytest.mark.parametrize("name", DRAWINGS | PICTURES)
+@pytest.mark.parametrize("name", DRAWINGS | still.PICTURES)
 def test_nothing_leaves_the_page_and_panels_do_not_overlap(name):
     box = style.journal(drawn(name).get_tightbbox)()  # inches
     width, height = drawn(name).get_size_inches()

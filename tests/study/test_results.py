@@ -19,16 +19,15 @@ from springblock.study.continuum import cases
 from springblock.study.mechanism import surfaces
 from springblock.study.plan import Plan
 from springblock.study.results import FIGURES, HERE, PAGES, PARTS, TABLES, found
+from studies import ROOT
 from study.paper.test_results import NORMAL_FORCE, SIZE, record
-
-CONFIG = Path(__file__).parents[2] / "config"
 
 
 def planned(*files: str) -> Plan:
     """The plan of a configuration."""
     merged: dict = {}
     for file in files:
-        update_config(merged, yaml.safe_load((CONFIG / file).read_text()))
+        update_config(merged, yaml.safe_load((ROOT / "config" / file).read_text()))
     return Plan(merged)
 
 

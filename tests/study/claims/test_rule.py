@@ -3,7 +3,6 @@
 import csv
 import math
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,8 +14,7 @@ from springblock.study.claims.page import Judged, values
 from springblock.study.claims.rule import INF, TESTS, Case, Evidence, Finding, Statement, verdict
 from springblock.study.claims.table import SCHEMA, rows
 from springblock.study.pages import rendered
-
-ROOT = Path(__file__).parents[3]
+from studies import ROOT
 
 
 def finding(low, high, claimed=(0.0, INF), n=10**6, **case):
@@ -122,6 +120,7 @@ def test_the_page_has_each_statement_with_its_count_and_the_finding_that_decides
     deciding = "a difference, n_p = 1: -1500000 [-2071797, -928203] µs | > 0 |"
     judged = f"| {GROWS.title} | general | **reproduced in part** | 1 of 2 | changed | {deciding}"
     assert judged in page
+    assert page.count(" | **not tested** | ") == 2
 
 
 def test_every_test_has_a_statement_and_every_statement_a_test():

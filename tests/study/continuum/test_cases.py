@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -11,8 +10,9 @@ import pytest
 from springblock.study.continuum import cases
 from springblock.study.continuum.cases import SERIES, Series, lowest_point
 from springblock.theory.layer import PLAIN, with_springs
+from studies import ROOT
 
-REGISTER = Path(__file__).parents[3] / "docs/registration/continuum.csv"
+REGISTER = ROOT / "docs/registration/continuum.csv"
 
 
 @pytest.mark.parametrize("shape", ["across", "along"])

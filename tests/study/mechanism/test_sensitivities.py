@@ -1,38 +1,27 @@
 """What friction and load peaks depend on, from realisations for which it is known."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
 
+from springblock.io.records import Record
 from springblock.model.scene import Scene
-from springblock.simulation.run import Run
 from springblock.study.mechanism.sensitivities import sensitivities, setting
 
 STIFFER = {"youngs_modulus": 1.41421356e7, "density": 1697.05627, "thickness": 7.0710678e-6}
 
 
-@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class MadeUp(Run):
-    """A run on a scene."""
-
-    scene: Scene
-
-
 def run(scene, friction, seed, dip=0.0):
     """Two load peaks with a dip between them, the later one at 3 µs; blocks detach at 1 µs."""
-    contact = scene.contact
-    return MadeUp(
+    return Record(
         scene=scene,
+        seed=seed,
         time=1e-6 * np.arange(6),
         force=(friction + 1e-4 * seed) * np.array([0.0, 0.99, 0.99 - dip, 1.0, 0.5, 0.6]),
         detachments=np.zeros(6, int),
         switches=np.zeros(6, int),
-        t_det=np.where(contact, 1e-6, np.nan),
+        t_det=np.where(scene.contact, 1e-6, np.nan),
         normal_force=1.0,
-        contact=contact,
-        snapshot_times=np.empty(0),
-        snapshots=np.empty((0, 2, 0, 0)),
+        contact=scene.contact,
     )
 
 

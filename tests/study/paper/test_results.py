@@ -6,7 +6,6 @@ from functools import cache
 import numpy as np
 import pandas as pd
 import pytest
-from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
@@ -14,6 +13,7 @@ from springblock import Pattern
 from springblock.analysis.statistics import prominence_of_mean
 from springblock.io.identity import identity
 from springblock.io.records import Record
+from springblock.io.rows import limits
 from springblock.model.scene import Scene
 from springblock.plotting.maps import painted, scale
 from springblock.study.results import FIGURES
@@ -24,10 +24,10 @@ ASKEW = Scene(24, SIZE, SIZE, direction="30")
 NORMAL_FORCE = 1.3e-3
 
 
-def record(seed: int, peaks: tuple[float, ...] = (110e-6,), samples: int = 700) -> Record:
+def record(seed: int, peaks: tuple[float, ...] = (110e-6,)) -> Record:
     """A force with hills at `peaks`; blocks let go from the edge of their pillar to its middle."""
     rng = np.random.default_rng(seed)
-    time = 2e-7 * np.arange(samples - 3 * seed)
+    time = 2e-7 * np.arange(700 - 3 * seed)
     force = 1e-4 * np.minimum(time / peaks[0], 1.0)
     force += sum(1e-3 * np.exp(-(((time - peak) / 8e-6) ** 2)) for peak in peaks)
     from_edge = np.minimum(np.arange(SIZE), np.arange(SIZE)[::-1])
@@ -64,6 +64,14 @@ def along_and_across(runs: int = 4):
     }
 
 
+def levels():
+    """The second level alone, cut across and cut along."""
+    along, across = ensemble(80e-6, 110e-6), ensemble(100e-6)
+    patterns = (8, 2, 0, 0, ""), (8, 2, 18, 2, "x"), (8, 2, 18, 2, "y"), (25, 8, 7, 2, "x")
+    ways = ("x", along), ("y", across)
+    return {(*pattern, way): runs for pattern in patterns for way, runs in ways}
+
+
 def sizes(runs: int = 4):
     peaks = {0: 60e-6, 2: 80e-6, 6: 100e-6, 20: 120e-6}
     return {n_p: ensemble(peak, runs=runs) for n_p, peak in peaks.items()}
@@ -97,10 +105,9 @@ def lengths() -> pd.DataFrame:
         for side, length in LENGTH.items():
             l_c = length * (1.0 + n_p / 600.0)
             tail = np.nan if n_p == 6 else l_c + 1.0
-            row = {"l_c": l_c, "ci_low": l_c - 0.2, "ci_high": l_c + 0.3}
-            row |= {"r_last": min(n_p // 3, 5), "amplitude": 0.8}
-            row |= {"tail": tail, "tail_low": tail - 0.5, "tail_high": tail + 0.5}
-            rows.append({"n_p": n_p, "side": side, **row})
+            row = {"n_p": n_p, "side": side, "r_last": min(n_p // 3, 5), "amplitude": 0.8}
+            row |= limits("l_c", (l_c, l_c - 0.2, l_c + 0.3), "ci")
+            rows.append(row | limits("tail", (tail, tail - 0.5, tail + 0.5)))
     return on_pillars(pd.DataFrame(rows))
 
 
@@ -116,6 +123,8 @@ DRAWINGS = {
     "figure_6": lambda: draw("figure_6", sizes()),
     "figure_7": lambda: draw("figure_7", 60, correlation(), lengths()),
     "figure_9": lambda: draw("figure_9", along_and_across()),
+    "supplement_levels": lambda: draw("supplement_levels", levels()),
+    "supplement_grooves": lambda: draw("supplement_grooves", levels()),
     "figure_5 of one run": lambda: draw("figure_5", [replace(record(0), scene=ASKEW)]),
     "figure_6 of one run": lambda: draw("figure_6", sizes(runs=1)),
     "figure_7 of the smallest pillars": lambda: draw("figure_7", 6, correlation(6), lengths()[:2]),
@@ -204,21 +213,13 @@ def test_figure_9_marks_the_load_peaks_of_the_data():
     assert "across 0.0 % [" in words
 
 
-def points(ax: Axes) -> list[np.ndarray]:
-    """Data of what is drawn with markers alone, (n, 2) each."""
-    return [
-        line.get_xydata()
-        for line in ax.get_lines()
-        if line.get_linestyle() == "None" and len(line.get_xydata()) and line.get_marker() in "Ds"
-    ]
-
-
 def test_curves_and_bands_are_those_of_the_table():
     """Behind r = 0, where c is 1; the logarithmic panel ends before an interval holds zero."""
     for ax, limit in zip(drawn("figure_7").axes, (-1.0, 0.0), strict=False):
         bands = [part for part in ax.collections if isinstance(part, PolyCollection)]
+        points = [line.get_xydata() for line in ax.get_lines() if line.get_marker() in ("D", "s")]
         for (_, side), shown, band in zip(
-            correlation().groupby("side"), points(ax), bands, strict=True
+            correlation().groupby("side"), filter(len, points), bands, strict=True
         ):
             part = side[(side["r"] > 0) & (side["ci_low"] > limit)]
             np.testing.assert_allclose(shown, part[["r", "correlation"]])

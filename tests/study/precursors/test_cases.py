@@ -13,24 +13,23 @@ from springblock.study.precursors.cases import AVALANCHES, CELLS, PASSAGES, PREC
 from springblock.study.results import TABLES
 from springblock.theory.chain import avalanche_length, one_sided_correlation
 from springblock.theory.front import Front
-from study.precursors.chapter import REGISTER
+from study.precursors.test_page import REGISTER
+
+CHAIN = pd.read_csv(REGISTER / "chain.csv").set_index(["edge", "what"])
 
 
 def test_the_register_has_what_the_exact_solution_gives():
-    register = pd.read_csv(REGISTER / "chain.csv").set_index(["edge", "what"])
-    assert len(register) == len(AVALANCHES)
+    assert len(CHAIN) == len(AVALANCHES)
     for cell in AVALANCHES[::7]:
         c = one_sided_correlation(cell.material, cell.handed, np.array([1, 6]))
         values = [cell.handed, avalanche_length(cell.material, cell.handed), *c]
-        found = register.loc[cell.shape, cell.what]
-        found = found[["t_1", "length", "one_sided_1", "one_sided_6"]]
+        found = CHAIN.loc[cell.shape, cell.what][["t_1", "length", "one_sided_1", "one_sided_6"]]
         assert found.to_numpy(float) == pytest.approx(values, rel=1e-3, abs=1e-5)
 
 
 @pytest.mark.parametrize("paper", AVALANCHES[:2], ids=cases.SHAPES)
 def test_the_register_has_what_the_chain_gives(paper):
-    register = pd.read_csv(REGISTER / "chain.csv").set_index(["edge", "what"])
-    row, found = register.loc[paper.shape, "paper"], paper.predicted(seeds=2)
+    row, found = CHAIN.loc[paper.shape, "paper"], paper.predicted(seeds=2)
     assert found["l_c"].mean == pytest.approx(row["l_c"], rel=0.1)
     assert found["load"].mean == pytest.approx(row["load"], abs=1e-3)
 

@@ -16,7 +16,7 @@ from springblock.study.claims.table import rows
 from springblock.study.report.page import report_page as page
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-ON_MACOS = Path("/Applications/Google Chrome.app/Contents/MacOS/Google Chrome")
+ON_MACOS = "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome"
 
 NASTY = "<img src=x onerror=alert(1)>"
 
@@ -49,17 +49,11 @@ def nasty(tmp_path, picture) -> Path:
     return report
 
 
-def chromium() -> str | None:
-    """Where the system's Chromium or Chrome is."""
-    found = filter(None, map(shutil.which, NAMES))
-    return next(found, str(ON_MACOS) if ON_MACOS.exists() else None)
-
-
 @pytest.fixture(scope="session")
 def browser():
     """Headless Chromium; tests without it are skipped, but not where CI must run them."""
-    place = chromium()
-    if place is None:
+    installed = filter(None, map(shutil.which, [*NAMES, ON_MACOS]))
+    if (place := next(installed, None)) is None:
         told = f"no browser is called {', '.join(NAMES)}; `make browser` installs one"
         (pytest.fail if os.environ.get("CI") else pytest.skip)(told)
     from playwright.sync_api import sync_playwright

@@ -5,7 +5,6 @@ import pandas as pd
 import pytest
 from playwright.sync_api import expect
 
-from springblock.__main__ import main
 from studies import ROOT
 
 #: Pictures without words for those who do not see them.
@@ -15,14 +14,13 @@ BROKEN = "[...document.images].filter((i) => i.complete && !i.naturalWidth).leng
 
 
 @pytest.fixture(scope="module")
-def whole(study, tmp_path_factory):
+def whole(study, springblock, tmp_path_factory):
     """A report of the tiny study with those pages, too, that only a whole study has."""
     results, output = study / "results", tmp_path_factory.mktemp("report") / "report.html"
     pages = [results / "claims.md", ROOT / "docs/accuracy.md", ROOT / "docs/mechanism.md"]
     figures, tables = (sorted(results.glob(kind)) for kind in ("figures/*.png", "tables/*.parquet"))
     run, film = next(results.glob("realisations/**/*.parquet")), results / "films/flat.gif"
-    files = map(str, [*figures, *tables, *pages, "--film", film, run, "--output", output])
-    main(["report", *files], standalone_mode=False)
+    springblock("report", *figures, *tables, *pages, "--film", film, run, "--output", output)
     return output
 
 

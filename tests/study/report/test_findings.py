@@ -4,14 +4,14 @@ from dataclasses import asdict
 
 import pytest
 
-from precision import production_rows
 from springblock.analysis.lowest import lowest
 from springblock.io.identity import identity
 from springblock.model.scene import Scene
 from springblock.study.claims.rule import Case
 from springblock.study.findings.page import by_size, values
 from springblock.study.pages import rendered
-from study.continuum import chapter
+from study.accuracy.test_page import production_rows
+from study.continuum.test_page import rows as unit_cells
 
 
 def finding(name, value, verdict="reproduced", outcome="holds", **case):
@@ -54,7 +54,7 @@ EDGES = [{"edge": "along", "what": "paper", "quantity": "l_c", "predicted": 2.7,
 
 def rendered_from(claims):
     """The page from these rows of the table of statements."""
-    found = values(claims, PAPER, chapter.rows(), production_rows(), EDGES)
+    found = values(claims, PAPER, unit_cells(), production_rows(), EDGES)
     return rendered("findings/page.md", **found)
 
 

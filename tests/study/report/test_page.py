@@ -7,7 +7,6 @@ import numpy as np
 import pyarrow as pa
 import pytest
 
-from springblock.__main__ import main
 from springblock.io.parquet import rows_to_table, write
 from springblock.io.records import read_records
 from springblock.study.claims import STATEMENTS
@@ -19,28 +18,18 @@ from springblock.study.report.page import report_page as page
 from springblock.study.results import FIGURES
 
 
-@pytest.fixture
-def untested(tmp_path):
-    """The table of statements of a study without data."""
-    write(rows_to_table(rows(STATEMENTS, Evidence()), SCHEMA), tmp_path / "claims.parquet", {})
-    return tmp_path / "claims.parquet"
-
-
-def test_a_figure_has_the_verdicts_of_the_study(picture, untested):
-    first = STATEMENTS[0]
-    figure = picture(f"figure_{first.figure}.png", "a")
-    text = page([figure, untested], {})
-    _, _, after = text.partition(str(typeset(first.title)))
-    assert "0 of 0 cases hold" in after
-    assert "verdicts of this study" not in page([figure], {})
-
-
-def test_the_report_has_words_criterion_reason_and_remark_of_each_statement(picture, untested):
-    text = page([untested, *(picture(f"figure_{i}.png", "a") for i in range(1, 10))], {})
+def test_figures_have_all_that_is_said_of_their_statements_and_the_verdicts(picture, tmp_path):
+    """Here of a study without data."""
+    table = tmp_path / "claims.parquet"
+    write(rows_to_table(rows(STATEMENTS, Evidence()), SCHEMA), table, {})
+    figures = [picture(f"figure_{i}.png", "a") for i in range(1, 10)]
+    text = page([table, *figures], {})
     for each in STATEMENTS:
         part = text.partition(f'id="statement-{each.id}"')[2].partition("</details>")[0]
-        for said in (each.words, each.criterion, each.remark, each.changed):
-            assert str(typeset(said)) in part
+        texts = (each.title, each.words, each.criterion, each.remark, each.changed)
+        for said in (*map(typeset, texts), "0 of 0 cases hold"):
+            assert str(said) in part
+    assert "verdicts of this study" not in page(figures, {})
 
 
 @pytest.mark.parametrize(
@@ -52,27 +41,23 @@ def test_the_report_has_words_criterion_reason_and_remark_of_each_statement(pict
         ("## The end", '<h2 id="a-the-end">'),
         ("| l_c |\n|---|", "<th><var>l<sub>c</sub></var></th>"),
         ('<a id="l-c"></a>l_c', '<span id="a-l-c"></span>'),
+        (
+            "[b](claims.md#the-rule) `docs/claims.md` [a](docs/model.md) `docs/model.md`",
+            '<p><a href="#claims-the-rule">b</a> <a href="#claims">claims</a> '
+            "<a>a</a> <code>docs/model.md</code></p>",
+        ),
+        ("![a < b](figure_6.png) ![c](figure_7.png)", '<p><a href="#figure_6">a &lt; b</a> c</p>'),
         (r"If $\mu_s F_n > w$.", "<var>μ<sub>s</sub></var> <var>F<sub>n</sub></var> &gt; w."),
     ],
 )
 def test_links_headings_formulas_and_symbols_of_a_page_are_set(text, html):
-    """Links within it, headings and anchors bear its name; symbols are set, but not in code."""
-    page = markup.rendered("a", f"# T\n\n{text}\n")
+    """Links within it, headings and anchors bear its name; symbols are set, but not in code.
+
+    Pages and pictures are links to pages and figures of the report; what it lacks leads nowhere.
+    """
+    page = markup.rendered("a", f"# T\n\n{text}\n", pages={"claims", "figure_6"})
     assert page.title == "T"
     assert html in page.body
-
-
-def test_pages_of_the_report_link_to_each_other():
-    text = "[a](docs/model.md) [b](claims.md#the-rule) `docs/claims.md` `docs/model.md`\n"
-    body = markup.rendered("a", text, pages={"claims"}).body
-    assert '<a href="#claims-the-rule">b</a> <a href="#claims">claims</a>' in body
-    assert body.count("href") == 2  # pages that the report lacks lead nowhere
-
-
-def test_pictures_of_pages_are_links_to_the_figures_of_the_report():
-    text = "![a < b](figure_6.png) ![c](figure_7.png)\n"
-    body = markup.rendered("a", text, pages={"figure_6"}).body
-    assert body == '<p><a href="#figure_6">a &lt; b</a> c</p>\n'
 
 
 def test_symbols_are_set_and_nothing_but_symbols():
@@ -90,10 +75,9 @@ def test_a_table_leaves_out_what_is_the_same_in_all_rows():
     assert shown["rows"] == [("1", ""), ("2", "0.123457")]
 
 
-def test_a_film_says_when_blocks_detach(tmp_path):
-    file = tmp_path / "run.parquet"
-    options = ["--n-blocks", "12", "--n-p", "3", "--n-s", "3", "--first-seed", "4"]
-    main(["simulate", *options, "--output", str(file)], standalone_mode=False)
+def test_a_film_says_when_blocks_detach(springblock, tmp_path):
+    file, scene = tmp_path / "run.parquet", ("--n-blocks", 12, "--n-p", 3, "--n-s", 3)
+    springblock("simulate", *scene, "--first-seed", 4, "--output", file)
     (run,) = read_records([file])
     said = media.told(run)
     assert said["scene"] == str(run.scene)

@@ -1,25 +1,22 @@
-"""Biases of ensembles, on made-up pairs whose bias is known and on surfaces of few blocks."""
+"""Tables of errors: biases and orders that are known, on few blocks, and reference solutions."""
+
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from analysis.test_correlation import times
+from benchmarks.reference import solve
 from springblock import Pattern, Setup, Surface, simulate
+from springblock.io.parquet import load
 from springblock.model.defaults import STEP
 from springblock.model.scene import Scene
 from springblock.study.accuracy import production
 from springblock.study.accuracy.conventions import DELAY, LENGTH, SCENES
 from springblock.study.accuracy.production import STEPS, measure, of_length, of_mean
-
-SEEDS = 4
-
-
-@pytest.fixture(scope="module")
-def rows():
-    """Rows of pillars so small that each run takes milliseconds."""
-    with pytest.MonkeyPatch.context() as changed:
-        changed.setitem(production.PATTERNS, "pillared", Pattern.pillars(12, 9, 3))
-        return list(measure("production-pillared", SEEDS, min(STEPS)))
+from springblock.study.accuracy.solutions import FILE, SMALL
+from springblock.study.accuracy.stability.surfaces import COLUMNS, pulled_column
+from springblock.study.accuracy.work_precision import SETTLED_STEPS, cost_of, horizon, orders_of
 
 
 def test_the_bias_of_a_mean_is_what_was_added(rng):
@@ -42,9 +39,11 @@ def test_the_bias_of_a_length_is_told_where_sides_correlate_further():
     assert found[STEP]["bias_error"] < 0.7 * unpaired
 
 
-def test_rows_hold_what_simulate_yields(rows):
-    pattern = Pattern.pillars(12, 9, 3)
-    setup = Setup(sample_interval=1.6e-7)
+def test_rows_hold_what_simulate_yields(monkeypatch):
+    """On pillars so small that each run takes milliseconds."""
+    pattern, setup = Pattern.pillars(12, 9, 3), Setup(sample_interval=1.6e-7)
+    monkeypatch.setitem(production.PATTERNS, "pillared", pattern)
+    rows = list(measure("production-pillared", 4, min(STEPS)))
     runs = [simulate(Surface.draw(pattern.contact, seed), setup) for seed in range(4)]
     found = {row["quantity"]: row for row in rows if row["step"] == STEP}
     assert found["t_max"]["value"] == pytest.approx(np.mean([run.t_max for run in runs]))
@@ -72,3 +71,40 @@ def test_scenes_are_those_of_the_study_and_steps_divide_the_sample_interval():
     multiples = production.SAMPLE_INTERVAL / np.array(STEPS)
     assert multiples == pytest.approx(np.round(multiples))
     assert STEP in STEPS
+
+
+def test_the_order_of_each_seed_is_told_whatever_the_sign_of_its_errors():
+    seeds = np.array([1.0, -20.0, 300.0])
+    found = {h: {"t_max": seeds * (h / STEP) ** np.array([1, 2, 3])} for h in SETTLED_STEPS}
+    assert orders_of(SETTLED_STEPS, found, "t_max") == pytest.approx([1.0, 2.0, 3.0], abs=1e-3)
+
+
+def test_one_slow_run_does_not_change_the_cost_of_a_realisation():
+    """Steps are averaged, and the CPU time is the median."""
+    runs = [
+        (SimpleNamespace(steps=steps), time) for steps, time in ((10, 90.0), (20, 1.0), (60, 2))
+    ]
+    assert cost_of("leapfrog", runs) == (2.0, 30.0)
+    assert cost_of("rk4", runs) == (2.0, 120.0)
+
+
+def test_runs_part_where_the_first_of_two_detaches():
+    """Blocks that never detach, or differ by less than 0.1 % of t_max, part nothing."""
+    one = SimpleNamespace(t_max=100.0, t_det=np.array([[10.0, 60.0], [50.0, np.nan]]))
+    other = SimpleNamespace(t_max=100.0, t_det=np.array([[10.09, 40.0], [45.0, 30.0]]))
+    assert horizon(one, other) == horizon(other, one) == 40.0
+    assert horizon(one, one) == np.inf
+
+
+def test_the_solutions_are_stored_in_a_small_file():
+    runs = [(row["scene"], row["seed"]) for row in load(FILE).to_pylist()]
+    assert runs == [(scene, seed) for scene, small in SMALL.items() for seed in range(small.seeds)]
+    assert FILE.stat().st_size < 300_000
+
+
+@pytest.mark.parametrize(("ratio", "strain"), COLUMNS)
+def test_columns_move_as_stored(ratio, strain):
+    surface, material, duration = pulled_column(ratio, strain)
+    run = solve(surface, material, duration, sample_interval=duration)
+    moved = run.displacement[0, ~surface.contact][0] / material.spacing
+    assert moved == pytest.approx(COLUMNS[ratio, strain], rel=1e-9)
