@@ -68,6 +68,11 @@ def test_lengths_in_metres_are_those_of_the_first_lattice(surface, monkeypatch):
         assert setup.step * setup.material.omega_max == pytest.approx(limit, rel=0.1)
 
 
-def test_the_command_refuses_edges_that_would_be_joined_anew(springblock):
-    said = springblock("refine", "--n-blocks", 4, "--edges", "periodic", refused=True)
-    assert "refine needs free edges and coefficients that are drawn" in said
+def test_the_command_refuses_joined_edges_and_given_coefficients(springblock, tmp_path):
+    """Which no finer lattice shares."""
+    mu = tmp_path / "mu.npy"
+    np.save(mu, np.full((4, 4), 0.5))
+    given = ("--mu-static-field", mu, "--mu-dynamic-field", mu)
+    for options in (("--edges", "periodic"), given):
+        said = springblock("refine", "--n-blocks", 4, *options, refused=True)
+        assert "refine needs free edges and coefficients that are drawn" in said

@@ -150,6 +150,7 @@ OF_SPEED = "def friction(speed):\n    return {}\n"
         ("1 / 0\n" + FRICTION, "cannot be run: ZeroDivisionError"),
         ("import sys\nsys.exit(0)\n", r"cannot be run: SystemExit\(0\)"),
         ("def friction(:\n", "cannot be run: SyntaxError"),
+        ("# coding: latin-99\n" + FRICTION, "cannot be read: unknown encoding"),
         ("def friction(mu):\n    return mu\n", "argument 'mu'; choose from mu_static, mu_dynamic"),
         (CONSTANTS.format("'a': 1.0"), r"CONSTANTS\['a'\] must be \(number, unit\)"),
         (CONSTANTS.format("'speed': (1.0, '')"), "the name 'speed' has two meanings"),
