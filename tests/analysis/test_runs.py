@@ -2,15 +2,14 @@
 
 import sys
 import threading
-import time
 
 import numpy as np
 import pytest
 
 import springblock
 from springblock import Pattern, Surface, ensemble, simulate
-from springblock.analysis.runs import realisations
 from springblock.analysis.statistics import mean_interval
+from springblock.simulation.threads import in_threads
 
 PATTERN = Pattern.pillars(8, n_p=2, n_s=2)
 
@@ -56,17 +55,16 @@ def test_a_run_becomes_a_dataset_where_xarray_is_installed(runs, monkeypatch):
 
 def test_tasks_run_at_the_same_time_and_their_errors_are_raised():
     both = threading.Barrier(2, timeout=30.0)  # passed only if two wait for each other
-    assert sorted(realisations(lambda seed: both.wait(), 2, jobs=2)) == [0, 1]
+    assert sorted(in_threads([both.wait, both.wait], jobs=2)) == [0, 1]
     started = []
 
-    def fails(seed):
-        started.append(seed)
-        time.sleep(0.01)
+    def fails():
+        started.append(1)
         raise ValueError("no surface")
 
     with pytest.raises(ValueError, match="no surface"):
-        realisations(fails, 99, jobs=1)
-    assert len(started) < 99
+        list(in_threads([fails] * 99, jobs=1))
+    assert len(started) == 1
 
 
 @pytest.mark.parametrize("name", ["seeds", "jobs"])

@@ -102,7 +102,8 @@ def test_no_pickled_object_is_loaded_from_a_prelude(springblock, tmp_path):
         def __reduce__(self):
             return os.mkdir, (str(tmp_path / "sprung"),)
 
-    np.savez(tmp_path / "trap.npz", fields=np.array([Trap()]))
+    texts = {"conditions": "", "code_version": ""}
+    np.savez(tmp_path / "trap.npz", fields=np.array([Trap()]), **texts)
     words = ("--n-blocks", 4, "--prelude", tmp_path / "trap.npz", "--output", tmp_path / "a")
     assert "trap.npz is not a prelude" in springblock("simulate", *words, refused=True)
     assert not (tmp_path / "sprung").exists()

@@ -82,6 +82,13 @@ def test_realisations_are_gathered_by_any_name_and_count_once(springblock, batch
     assert "by: unknown name 'speed'" in springblock("table", folder, "--by", "speed", refused=True)
 
 
+def test_times_of_snapshots_are_text_in_csv(springblock, batch, tmp_path):
+    output = tmp_path / "table.csv"
+    watched = batch(0, 1, "--snapshot-times", "1e-4")
+    springblock("table", batch(0, 1), watched, "--output", output)
+    assert [row["snapshot_times"] for row in written(output)] == ["()", "(0.0001,)"]
+
+
 @pytest.mark.parametrize(("seeds", "paired"), [((0, 2), True), ((0, 3), False), ((1, 3), False)])
 def test_a_difference_is_paired_where_seeds_are_the_same(
     springblock, batch, tmp_path, seeds, paired

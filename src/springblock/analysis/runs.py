@@ -1,7 +1,8 @@
 """Ensembles in Python: `ensemble`, and the runs that it returns."""
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from operator import itemgetter
 from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
@@ -17,6 +18,7 @@ from springblock.simulation.prelude import compute_prelude
 from springblock.simulation.run import Realisation
 from springblock.simulation.setup import DEFAULT, Setup
 from springblock.simulation.simulate import simulate
+from springblock.simulation.threads import in_threads
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -79,11 +81,12 @@ def ensemble(
 
 
 def realisations(run: Callable[[int], Realisation], seeds: int, jobs: int) -> Runs:
-    """Return what `run` returns for the seeds 0, 1, ..., computed on several cores.
+    """Return what `run` returns for the seeds 0, 1, ..., computed on several cores."""
 
-    Kernels do not hold Python's lock. After an error, or Ctrl-C, no further run begins.
-    """
-    every = range(check_whole("seeds", seeds))
-    with ThreadPoolExecutor(check_whole("jobs", jobs)) as pool:
-        done = pool.map(run, every)
-        return Runs(tqdm(done, total=seeds, unit=" runs", disable=None, delay=10.0))
+    def numbered(seed: int) -> tuple[int, Realisation]:
+        return seed, run(seed)
+
+    tasks = [partial(numbered, seed) for seed in range(check_whole("seeds", seeds))]
+    done = in_threads(tasks, check_whole("jobs", jobs))
+    counted = tqdm(done, total=seeds, unit=" runs", disable=None, delay=10.0)  # on a terminal
+    return Runs(run for _, run in sorted(counted, key=itemgetter(0)))

@@ -154,10 +154,13 @@ def _report(rows: Sequence[Row], output: Path | None) -> None:
 
 
 def _numbers(row: Row) -> Row:
-    """Return a row with separate columns for the limits of intervals."""
+    """Return a row with separate columns for the limits of intervals, and times as text."""
     numbers: Row = {}
     for name, value in row.items():
-        numbers |= limits(name, value) if isinstance(value, Interval) else {name: value}
+        if isinstance(value, Interval):
+            numbers |= limits(name, value)
+        else:  # CSV has no lists
+            numbers[name] = str(value) if isinstance(value, tuple) else value
     return numbers
 
 

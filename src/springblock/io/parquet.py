@@ -48,7 +48,10 @@ def rows_to_table(rows: Sequence[Mapping[str, Any]], schema: pa.Schema) -> pa.Ta
 def _array(values: Sequence[Any] | NDArray[Any], kind: pa.DataType) -> pa.Array:
     """Return `pa.array(values, kind)`, without importing pandas as that does."""
     if pa.types.is_list(kind):
-        offsets = _array(np.cumsum([0, *map(len, values)]), pa.int32())
+        ends = np.cumsum([0, *map(len, values)])
+        if ends[-1] > np.iinfo(np.int32).max:
+            raise ValueError(f"a column holds no {ends[-1]} numbers; give fewer runs or samples")
+        offsets = _array(ends, pa.int32())
         return pa.ListArray.from_arrays(
             offsets, _array(np.concatenate(values or [[]]), kind.value_type)
         )

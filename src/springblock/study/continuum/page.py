@@ -28,6 +28,8 @@ _SHOWN = ("d_c", "l_z", "mu_d", "K_s x 0.5")
 def values(rows: Sequence[Row]) -> dict[str, Any]:
     """Return what the template names, from the rows of the table `continuum`."""
     cells = pd.DataFrame(rows)
+    if not np.isfinite(cells["simulated"]).all():  # which maxima would pass over
+        raise ValueError("the table continuum has runs without static friction")
     cells["apart"] = (cells["simulated"] - cells["predicted"]).abs()
     of = dict(list(cells.groupby("what")))
     plain = cells[~cells["what"].str.startswith(_OTHERS)]
