@@ -66,9 +66,9 @@ def test_a_full_disk_stops_no_run(tmp_path):
     full = "import resource\nresource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))\n"
     [(hits, said, code)] = run_kernels(tmp_path / "cache", full)
     assert (hits, said[:1], code) == (["0", "0"], [COMPILING], 0)
-    assert said[1].startswith(f"machine code cannot be cached in {tmp_path}")
-    assert said[1].endswith("File too large")
-    assert len(said) == 2
+    (warned,) = (line for line in said if "cannot be cached" in line)  # once
+    assert warned.startswith(f"machine code cannot be cached in {tmp_path}")
+    assert warned.endswith("File too large")
 
 
 def test_each_process_compiles_where_nothing_can_be_written(tmp_path):
