@@ -1,5 +1,6 @@
 """Parquet files are written whole or not at all, and hold the given values."""
 
+import pyarrow as pa
 import pytest
 
 from springblock.files import whole_file
@@ -21,3 +22,9 @@ def test_a_file_that_is_not_written_whole_leaves_the_one_before(tmp_path):
     with pytest.raises(ValueError, match="nothing was written"):
         write(rows_to_table([], BATCH), file, {})
     assert [each.read_text() for each in tmp_path.iterdir()] == ["before"]
+
+
+def test_more_numbers_than_a_column_of_lists_can_place_are_refused():
+    """Their offsets have 32 bits, and would wrap."""
+    with pytest.raises(ValueError, match="a column holds no 2147483648 numbers; give fewer runs"):
+        rows_to_table([{"force": range(2**31)}], pa.schema([BATCH.field("force")]))

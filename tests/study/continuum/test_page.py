@@ -84,3 +84,9 @@ def test_a_sentence_against_the_table_is_refused(what, column, other, sentence):
     ]
     with pytest.raises(ValueError, match=f"contradict “{sentence}"):
         rendered("continuum/page.md", **values(cells))
+
+
+def test_runs_without_friction_are_no_part_of_a_largest_difference():
+    cells = [row | {"simulated": math.nan} if row["what"] == "lattice" else row for row in rows()]
+    with pytest.raises(ValueError, match="runs without static friction"):
+        values(cells)

@@ -42,12 +42,13 @@ def _realisations(declared: Figure, batches: Paths) -> list[Any]:
     return [records]
 
 
-def _tables(declared: Figure, tables: Paths, **n_p: int) -> list[Any]:
+def _tables(declared: Figure, tables: Paths, n_p: int | None = None) -> list[Any]:
     names = declared.tables + (declared.also if declared.draws == "correlations" else ())
     if not len(declared.tables) <= len(tables) <= len(names):
         raise ValueError(f"{len(tables)} files given; give {', '.join(declared.tables)}")
     named = zip(names, tables, strict=False)
-    return [*n_p.values(), *(read_as(name, table).to_pandas() for name, table in named)]
+    frames = [read_as(name, table).to_pandas() for name, table in named]
+    return frames if n_p is None else [n_p, *frames]
 
 
 _many = partial(click.argument, type=INPUT, nargs=-1, required=True)
